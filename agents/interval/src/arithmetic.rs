@@ -1,0 +1,170 @@
+//! Sum, difference, product and quotient, rounded outwards.
+//!
+//! Each gives the smallest interval with `f64` bounds that holds every result for numbers taken from the operands, except
+//! in the last bit where an exact result is below 2^-960. An operand that is empty gives the empty set. A plain number as
+//! operand stands for itself; NaN stands for any number.
+//!
+//! Source: seed 001, equations (2.8) to (2.14).
+
+use crate::interval::Interval;
+use crate::rounding::{add_down, add_up, div_down, div_up, mul_down, mul_up, sub_down, sub_up};
+use crate::set::{larger, smaller};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+impl Neg for Interval {
+    type Output = Interval;
+
+    #[inline]
+    fn neg(self) -> Interval {
+        if self.is_empty() { self } else { Interval::from_bounds(-self.upper(), -self.lower()) }
+    }
+}
+
+impl Add for Interval {
+    type Output = Interval;
+
+    #[inline]
+    fn add(self, other: Interval) -> Interval {
+        if self.is_empty() || other.is_empty() {
+            return Interval::EMPTY;
+        }
+        Interval::from_bounds(add_down(self.lower(), other.lower()), add_up(self.upper(), other.upper()))
+    }
+}
+
+impl Sub for Interval {
+    type Output = Interval;
+
+    #[inline]
+    fn sub(self, other: Interval) -> Interval {
+        if self.is_empty() || other.is_empty() {
+            return Interval::EMPTY;
+        }
+        Interval::from_bounds(sub_down(self.lower(), other.upper()), sub_up(self.upper(), other.lower()))
+    }
+}
+
+impl Mul for Interval {
+    type Output = Interval;
+
+    /// Two products are enough when a factor does not change sign; only when both do are four needed.
+    #[inline]
+    fn mul(self, other: Interval) -> Interval {
+        if self.is_empty() || other.is_empty() {
+            return Interval::EMPTY;
+        }
+        let (a, b) = (self.lower(), self.upper());
+        let (c, d) = (other.lower(), other.upper());
+        let (lower, upper) = if a >= 0.0 {
+            if c >= 0.0 {
+                (mul_down(a, c), mul_up(b, d))
+            } else if d <= 0.0 {
+                (mul_down(b, c), mul_up(a, d))
+            } else {
+                (mul_down(b, c), mul_up(b, d))
+            }
+        } else if b <= 0.0 {
+            if c >= 0.0 {
+                (mul_down(a, d), mul_up(b, c))
+            } else if d <= 0.0 {
+                (mul_down(b, d), mul_up(a, c))
+            } else {
+                (mul_down(a, d), mul_up(a, c))
+            }
+        } else if c >= 0.0 {
+            (mul_down(a, d), mul_up(b, d))
+        } else if d <= 0.0 {
+            (mul_down(b, c), mul_up(a, c))
+        } else {
+            (smaller(mul_down(a, d), mul_down(b, c)), larger(mul_up(a, c), mul_up(b, d)))
+        };
+        Interval::from_bounds(lower, upper)
+    }
+}
+
+impl Div for Interval {
+    type Output = Interval;
+
+    /// The hull of `x / y` over the `y` that are not zero; empty when zero is the only one.
+    #[inline]
+    fn div(self, other: Interval) -> Interval {
+        if self.is_empty() || other.is_empty() {
+            return Interval::EMPTY;
+        }
+        if other.upper() < 0.0 {
+            return (-self) / (-other);
+        }
+        if !other.contains(0.0) {
+            return divide_by_positive(self, other);
+        }
+        divide_across_zero(self, other)
+    }
+}
+
+#[inline]
+fn divide_by_positive(x: Interval, y: Interval) -> Interval {
+    let (a, b) = (x.lower(), x.upper());
+    let (c, d) = (y.lower(), y.upper());
+    let lower = div_down(a, if a >= 0.0 { d } else { c });
+    let upper = div_up(b, if b >= 0.0 { c } else { d });
+    Interval::from_bounds(lower, upper)
+}
+
+fn divide_across_zero(x: Interval, y: Interval) -> Interval {
+    let (c, d) = (y.lower(), y.upper());
+    if c == 0.0 && d == 0.0 {
+        Interval::EMPTY
+    } else if x == Interval::ZERO {
+        Interval::ZERO
+    } else if x.lower() < 0.0 && x.upper() > 0.0 || c < 0.0 && d > 0.0 {
+        Interval::ENTIRE
+    } else {
+        // Neither changes sign: the quotients are one ray, away from zero.
+        let (smallest_x, largest_y) = (x.mignitude(), y.magnitude());
+        let nearest = div_down(smallest_x, largest_y);
+        let ray = Interval::from_bounds(nearest, f64::INFINITY);
+        if (x.upper() > 0.0) == (d > 0.0) { ray } else { -ray }
+    }
+}
+
+/// Writes the operators between an interval and a plain number, on either side, as operators between intervals.
+macro_rules! with_plain_numbers {
+    ($($operator:ident :: $method:ident),*) => {$(
+        impl $operator<f64> for Interval {
+            type Output = Interval;
+
+            #[inline]
+            fn $method(self, other: f64) -> Interval {
+                $operator::$method(self, Interval::spanning(other, other))
+            }
+        }
+
+        impl $operator<Interval> for f64 {
+            type Output = Interval;
+
+            #[inline]
+            fn $method(self, other: Interval) -> Interval {
+                $operator::$method(Interval::spanning(self, self), other)
+            }
+        }
+    )*};
+}
+
+with_plain_numbers!(Add::add, Sub::sub, Mul::mul, Div::div);
+
+impl AddAssign for Interval {
+    #[inline]
+    fn add_assign(&mut self, other: Interval) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Interval {
+    #[inline]
+    fn sub_assign(&mut self, other: Interval) {
+        *self = *self - other;
+    }
+}
+
+#[cfg(test)]
+mod tests;

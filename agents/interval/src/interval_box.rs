@@ -1,0 +1,256 @@
+//! The box: a product of intervals.
+
+use crate::interval::Interval;
+use nalgebra::SVector;
+use std::fmt;
+use std::ops::{Add, BitAnd, BitOr, Index, IndexMut, Mul, Neg, Sub};
+
+/// An axis-aligned box of `N` dimensions: the vectors whose every coordinate is in the interval of its axis.
+///
+/// A box with one empty side is empty, whatever its other sides; what the operations return is then
+/// [`IntervalBox::EMPTY`], empty on all sides.
+///
+/// ```
+/// use nalgebra::Vector2;
+/// use shoal_interval::{Interval, IntervalBox};
+///
+/// let position_m = IntervalBox::from([Interval::new(1.0, 3.0)?, Interval::new(1.0, 2.0)?]);
+/// assert!(position_m.contains(&Vector2::new(2.0, 1.5)));
+/// assert_eq!(position_m.width(), 2.0);
+/// # Ok::<(), shoal_interval::IntervalError>(())
+/// ```
+///
+/// Source: seed 001, equations (2.19) to (2.22).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IntervalBox<const N: usize> {
+    sides: [Interval; N],
+}
+
+impl<const N: usize> IntervalBox<N> {
+    /// No vector at all.
+    pub const EMPTY: IntervalBox<N> = IntervalBox { sides: [Interval::EMPTY; N] };
+
+    /// Every vector.
+    pub const ENTIRE: IntervalBox<N> = IntervalBox { sides: [Interval::ENTIRE; N] };
+
+    /// All vectors whose every coordinate is within `radius` of that of `mid`, by the rules of [`Interval::centred`].
+    pub fn centred(mid: &SVector<f64, N>, radius: f64) -> IntervalBox<N> {
+        IntervalBox::from(std::array::from_fn(|axis| Interval::centred(mid[axis], radius)))
+    }
+
+    /// Whether no vector is in the box.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.sides.iter().any(|side| side.is_empty())
+    }
+
+    /// Whether every side lies between two finite numbers. The empty box does.
+    pub fn is_bounded(&self) -> bool {
+        self.is_empty() || self.sides.iter().all(|side| side.is_bounded())
+    }
+
+    /// The longest side, rounded up; NaN for the empty box. Source: seed 001, equation (2.22).
+    pub fn width(&self) -> f64 {
+        if self.is_empty() {
+            return f64::NAN;
+        }
+        self.sides.iter().map(|side| side.width()).fold(0.0, f64::max)
+    }
+
+    /// A vector near the middle, always finite and inside the box; all NaN for the empty box.
+    pub fn mid(&self) -> SVector<f64, N> {
+        let empty = self.is_empty();
+        SVector::from_fn(|axis, _| if empty { f64::NAN } else { self.sides[axis].mid() })
+    }
+
+    /// Whether `vector` is in the box. One with a NaN or an infinite coordinate is in none.
+    #[inline]
+    pub fn contains(&self, vector: &SVector<f64, N>) -> bool {
+        self.sides.iter().zip(vector.iter()).all(|(side, &coordinate)| side.contains(coordinate))
+    }
+
+    /// Whether every vector of `self` is in `other`. The empty box is inside every box.
+    #[inline]
+    pub fn is_subset_of(&self, other: &IntervalBox<N>) -> bool {
+        self.is_empty() || self.sides.iter().zip(other.iter()).all(|(side, &outer)| side.is_subset_of(outer))
+    }
+
+    /// The vectors that are in both boxes; also written `x & y`. Exact.
+    #[inline]
+    pub fn intersection(&self, other: &IntervalBox<N>) -> IntervalBox<N> {
+        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] & other.sides[axis]) }.or_empty()
+    }
+
+    /// The smallest box that holds both; also written `x | y`. Exact.
+    #[inline]
+    pub fn hull(&self, other: &IntervalBox<N>) -> IntervalBox<N> {
+        if self.is_empty() {
+            return other.or_empty();
+        }
+        if other.is_empty() {
+            return *self;
+        }
+        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] | other.sides[axis]) }
+    }
+
+    /// Everything within `radius` of the box along each axis, by the rules of [`Interval::inflate`].
+    #[inline]
+    pub fn inflate(&self, radius: f64) -> IntervalBox<N> {
+        IntervalBox { sides: self.sides.map(|side| side.inflate(radius)) }.or_empty()
+    }
+
+    /// The sides, in the order of the axes.
+    #[inline]
+    pub fn iter(&self) -> std::slice::Iter<'_, Interval> {
+        self.sides.iter()
+    }
+
+    /// The sides as an array, in the order of the axes.
+    #[inline]
+    pub const fn sides(&self) -> [Interval; N] {
+        self.sides
+    }
+
+    /// The same box, empty on all sides if it was on one.
+    #[inline]
+    fn or_empty(&self) -> IntervalBox<N> {
+        if self.is_empty() { IntervalBox::EMPTY } else { *self }
+    }
+}
+
+impl<const N: usize> From<[Interval; N]> for IntervalBox<N> {
+    #[inline]
+    fn from(sides: [Interval; N]) -> IntervalBox<N> {
+        IntervalBox { sides }
+    }
+}
+
+/// Panics, like any index, when there is no such axis.
+impl<const N: usize> Index<usize> for IntervalBox<N> {
+    type Output = Interval;
+
+    #[inline]
+    fn index(&self, axis: usize) -> &Interval {
+        &self.sides[axis]
+    }
+}
+
+/// Panics, like any index, when there is no such axis.
+impl<const N: usize> IndexMut<usize> for IntervalBox<N> {
+    #[inline]
+    fn index_mut(&mut self, axis: usize) -> &mut Interval {
+        &mut self.sides[axis]
+    }
+}
+
+impl<'a, const N: usize> IntoIterator for &'a IntervalBox<N> {
+    type Item = &'a Interval;
+    type IntoIter = std::slice::Iter<'a, Interval>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl<const N: usize> Add for IntervalBox<N> {
+    type Output = IntervalBox<N>;
+
+    #[inline]
+    fn add(self, other: IntervalBox<N>) -> IntervalBox<N> {
+        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] + other.sides[axis]) }.or_empty()
+    }
+}
+
+impl<const N: usize> Sub for IntervalBox<N> {
+    type Output = IntervalBox<N>;
+
+    #[inline]
+    fn sub(self, other: IntervalBox<N>) -> IntervalBox<N> {
+        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] - other.sides[axis]) }.or_empty()
+    }
+}
+
+impl<const N: usize> Neg for IntervalBox<N> {
+    type Output = IntervalBox<N>;
+
+    #[inline]
+    fn neg(self) -> IntervalBox<N> {
+        IntervalBox { sides: self.sides.map(|side| -side) }
+    }
+}
+
+/// Every side times the same set of numbers: a velocity box times a duration.
+impl<const N: usize> Mul<Interval> for IntervalBox<N> {
+    type Output = IntervalBox<N>;
+
+    #[inline]
+    fn mul(self, factor: Interval) -> IntervalBox<N> {
+        IntervalBox { sides: self.sides.map(|side| side * factor) }.or_empty()
+    }
+}
+
+impl<const N: usize> BitAnd for IntervalBox<N> {
+    type Output = IntervalBox<N>;
+
+    #[inline]
+    fn bitand(self, other: IntervalBox<N>) -> IntervalBox<N> {
+        self.intersection(&other)
+    }
+}
+
+impl<const N: usize> BitOr for IntervalBox<N> {
+    type Output = IntervalBox<N>;
+
+    #[inline]
+    fn bitor(self, other: IntervalBox<N>) -> IntervalBox<N> {
+        self.hull(&other)
+    }
+}
+
+/// Writes the sides joined by `x`, or `empty`; a precision is passed on to the sides.
+impl<const N: usize> fmt::Display for IntervalBox<N> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_empty() {
+            return formatter.write_str("empty");
+        }
+        for (axis, side) in self.sides.iter().enumerate() {
+            if axis > 0 {
+                formatter.write_str(" x ")?;
+            }
+            side.fmt(formatter)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector2;
+
+    fn unit() -> IntervalBox<2> {
+        IntervalBox::from([Interval::new(0.0, 1.0).unwrap(); 2])
+    }
+
+    #[test]
+    fn one_empty_side_empties_the_box() {
+        let mut flat = unit();
+        flat[1] = Interval::EMPTY;
+        assert!(flat.is_empty() && flat.width().is_nan() && flat.mid().iter().all(|x| x.is_nan()));
+        assert_eq!(flat & unit(), IntervalBox::EMPTY);
+        assert_eq!(flat | unit(), unit());
+        assert_eq!(flat + unit(), IntervalBox::EMPTY);
+        assert!(flat.is_subset_of(&unit()));
+    }
+
+    #[test]
+    fn sets_and_sums() {
+        let moved = unit() + IntervalBox::centred(&Vector2::new(0.5, 2.0), 0.0);
+        assert!((unit() & moved).is_empty());
+        assert_eq!((unit() | moved).width(), 3.0);
+        assert_eq!(moved.mid(), Vector2::new(1.0, 2.5));
+        assert_eq!((unit() - unit()).width(), 2.0);
+        assert_eq!((unit() * Interval::new(-1.0, 2.0).unwrap()).width(), 3.0);
+        assert_eq!(format!("{:.1}", unit().inflate(0.5)), "[-0.5, 1.5] x [-0.5, 1.5]");
+    }
+}
