@@ -1,0 +1,131 @@
+//! One `[[group]]`: a number of like AUVs.
+
+use std::collections::BTreeMap;
+
+use crate::body::Catalogue;
+use crate::environment::norm;
+use crate::model::{AuvSabotage, Clock, Environment, Group, Kind};
+use crate::reader::Table;
+use crate::sensing::{PERIOD_MIN_NS, modem, sensors};
+use crate::start::start;
+use crate::steering::{Surroundings, controller, estimator};
+use crate::{AUVS_MAX, window_limit_ns};
+
+const SABOTAGES: &[(&str, Option<AuvSabotage>)] = &[
+    ("halved-clock", Some(AuvSabotage::HalvedClock)),
+    ("lying-ping", Some(AuvSabotage::LyingPing)),
+    ("empty-set", Some(AuvSabotage::EmptySet)),
+];
+const TENTH_NS: i64 = 100_000_000;
+
+/// What was read of a group: `group` only when all of it is good, the rest as far as it is.
+pub(crate) struct GroupRead {
+    /// Its name as written, or nothing.
+    pub(crate) name: String,
+    pub(crate) group: Option<Group>,
+    pub(crate) count: Option<u32>,
+    /// Longest window that this group allows.
+    pub(crate) window_limit_ns: Option<i64>,
+    /// Greatest speed through the still water in m/s.
+    pub(crate) fastest_m_s: Option<f64>,
+}
+
+pub(crate) fn group(
+    table: Table<'_>,
+    kinds: &Catalogue<Kind>,
+    clocks: &Catalogue<Clock>,
+    environment: Option<&Environment>,
+    group_names: &[&str],
+) -> GroupRead {
+    let name = table.text("name", None).filter(|name| name_is_good(&table, "name", name));
+    let count =
+        table.whole("count", None, 1, u64::from(AUVS_MAX)).and_then(|count| u32::try_from(count).ok());
+    let kind = kinds.of_group(&table);
+    let clock = clocks.of_group(&table);
+    let control_period_ns = control_period(&table);
+    let reaction_ns = table.time_ns("reaction_s", Some(TENTH_NS), PERIOD_MIN_NS);
+    let sensors = sensors(&table);
+    let modem = modem(&table);
+    let estimator = estimator(&table);
+    let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });
+    let start = start(&table, environment, kind.as_ref(), controller.as_ref(), count);
+    let sabotage = table.choice("sabotage", SABOTAGES, None);
+    table.finish();
+    let window_limit_ns = match (reaction_ns, &clock) {
+        (Some(reaction_ns), Some(clock)) => Some(window_limit_ns(reaction_ns, clock.drift_bound)),
+        _ => None,
+    };
+    let fastest_m_s = kind.as_ref().map(|kind| kind.speed_max_m_s + norm(kind.disturbance_m_s));
+    let assemble = || {
+        Some(Group {
+            name: name?.to_string(),
+            count: count?,
+            kind: kind?,
+            clock: clock?,
+            sensors: sensors?,
+            modem: modem?,
+            start: start?,
+            control_period_ns: control_period_ns?,
+            reaction_ns: reaction_ns?,
+            estimator: estimator?,
+            controller: controller?,
+            sabotage: sabotage?,
+        })
+    };
+    let written = name.unwrap_or_default().to_string();
+    GroupRead { name: written, group: assemble(), count, window_limit_ns, fastest_m_s }
+}
+
+fn control_period(table: &Table<'_>) -> Option<i64> {
+    let period_ns = table.time_ns("control_period_s", Some(TENTH_NS), 1)?;
+    if period_ns < PERIOD_MIN_NS {
+        table.refuse(
+            "control_period_s",
+            "an AUV wakes at most a thousand times a second",
+            "shorter than 0.001 s",
+            "write `control_period_s = 0.001` or more",
+        );
+        return None;
+    }
+    Some(period_ns)
+}
+
+/// Whether a name can be part of file names and of `NAME-0`.
+pub(crate) fn name_is_good(table: &Table<'_>, key: &str, name: &str) -> bool {
+    let good = (1..=64).contains(&name.len())
+        && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_'));
+    if !good {
+        table.refuse(
+            key,
+            "a name has 1 to 64 letters, digits, `-` and `_`",
+            "not usable as a name",
+            "write for example `swarm-3`",
+        );
+    }
+    good
+}
+
+/// The names of all groups, empty for those without one, and errors for those that come twice.
+pub(crate) fn group_names<'t>(tables: &[Table<'t>]) -> Vec<&'t str> {
+    let mut first_by_name = BTreeMap::new();
+    let mut names = Vec::new();
+    for table in tables {
+        let name = table.get("name").and_then(|value| value.get_ref().as_str()).unwrap_or_default();
+        names.push(name);
+        if name.is_empty() {
+            continue;
+        }
+        let span = table.span("name");
+        let first = first_by_name.entry(name).or_insert_with(|| span.clone());
+        if *first != span {
+            table.findings.add_related(
+                span,
+                format!("two groups are called `{}`", name.escape_debug()),
+                "second one",
+                Some((first.clone(), "first one".into())),
+                "give each group a name of its own",
+            );
+        }
+    }
+    names
+}

@@ -1,0 +1,149 @@
+//! Scenario files: what they may say, how they are read, and those that come with Shoal.
+//!
+//! A scenario and a seed determine every event of a run. It is a TOML file with units in the names of its keys; [`parse`]
+//! reads and validates it, and reports every error with its place, cause and fix. [`load`] finds one by its name in the
+//! [`library`] or by its path, and [`Overrides`] are what the command line may change.
+//!
+//! ```
+//! use shoal_scenario::{Overrides, load, parse};
+//!
+//! let (source_name, text) = load("swarm-1000")?;
+//! let scenario = parse(&source_name, &text)?;
+//! assert_eq!(scenario.auv_count(), 1000);
+//!
+//! // The same swarm with a tenth of its AUVs.
+//! let smaller = Overrides { auvs: Some(100), ..Overrides::default() }.apply(scenario)?;
+//! let counts: Vec<u32> = smaller.groups.iter().map(|group| group.count).collect();
+//! assert_eq!(counts, [50, 30, 20]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # All keys
+//!
+//! Times are decimal and must be whole nanoseconds; vectors are `[east, north, up]`, and the surface is at 0. "Error" is a
+//! bound: the true error is anywhere inside it, and 0 is a perfect sensor.
+//!
+//! | key | unit | default | meaning |
+//! |---|---|---|---|
+//! | `name` | | needed | name of the scenario: letters, digits, `-`, `_` |
+//! | `summary` | | `""` | one line for `shoal scenarios` |
+//! | `source` | | `""` | where it comes from |
+//! | `seed` | | 1 | seed of every random draw |
+//! | `duration_s` | s | needed | simulated time |
+//! | `window_ms` | ms | 90, or the largest whole ms allowed | true time per lockstep window; never changes the result |
+//! | `knot_ms` | ms | 10 | between knots of true trajectories and clocks |
+//! | `noise` | | `"uniform"` | errors are drawn `"uniform"` inside their bounds, or `"adversarial"`: always at one |
+//! | `on_crash` | | `"drift"` | when an AUV's process ends, its body will `"drift"` on, or the run will `"abort"` |
+//! | **`[environment]`** | | needed | |
+//! | `area_m` | m | needed | `[[west, east], [south, north], [bottom, top]]` of the mission |
+//! | `level` | | `"ideal"` | `"ideal"`: constant speed of sound, sharp range limit |
+//! | `sound_speed_m_s` | m/s | 1500 | speed of sound; more than twice the fastest body |
+//! | `sound_speed_error_m_s` | m/s | 0 | error of the stated speed |
+//! | `current_m_s` | m/s | `[0, 0, 0]` | true current |
+//! | `current_error_m_s` | m/s | `[0, 0, 0]` | error of the stated current, per axis |
+//! | **`[kind.NAME]`, `kind = {...}`** | | | a body of one's own, in full or beginning with `like` |
+//! | `like` | | | preset or other kind that fills in what is not said |
+//! | `speed_max_m_s` | m/s | needed | greatest speed through the water |
+//! | `acceleration_max_m_s2` | m/s² | needed | greatest change of speed |
+//! | `turn_rate_max_rad_s` | rad/s | needed | greatest rate of turn, in heading and in pitch |
+//! | `pitch_max_rad` | rad | 0.5 | steepest climb or dive |
+//! | `disturbance_m_s` | m/s | `[0, 0, 0]` | bound of the state noise, per axis |
+//! | `length_m` | m | 2 | closer than this, two bodies collide |
+//! | **`[clock.NAME]`, `clock = {...}`** | | | a clock of one's own |
+//! | `like` | | | preset or other clock that fills in what is not said |
+//! | `drift_bound` | | needed | bound of the rate error, a fraction below 1 |
+//! | `wander_fraction` | | 0.5 | part of the bound within which the rate wanders; the rest is constant |
+//! | `offset_bound_s` | s | 0 | bound of the unknown offset at the beginning |
+//! | **`[[group]]`** | | one or more | like AUVs; [`TABLES_MAX`] groups at most |
+//! | `name` | | needed | AUVs are called `NAME-0`, `NAME-1`, ... |
+//! | `count` | | needed | how many; [`AUVS_MAX`] in all |
+//! | `kind` | | `"lauv"` | body: one of [`presets::KINDS`], of one's own, or a table |
+//! | `clock` | | `"tcxo"` | clock: one of [`presets::CLOCKS`], of one's own, or a table |
+//! | `control_period_s` | s | 0.1 | between control ticks, in local time; 0.001 at least |
+//! | `reaction_s` | s | 0.1 | from a tick to when its answer takes effect, in local time |
+//! | `estimator` | | `"tube"` | name, or table with `name` |
+//! | `estimator.horizon_s` | s | 10 | past that the tube keeps, in local time |
+//! | `controller` | | `"hold"` | name, or table with `name`; see below |
+//! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
+//! | **`[group.sensors]`** | | | |
+//! | `heading_error_rad`, `pitch_error_rad` | rad | 0.01 | errors of the compass |
+//! | `speed_error_m_s` | m/s | 0.02 | error of the log |
+//! | `depth_error_m` | m | 0.1 | error of the depth; `false` for none |
+//! | `gnss` | | `false` | a table for a satellite receiver: |
+//! | `gnss.depth_max_m` | m | 1 | works above this depth |
+//! | `gnss.period_s` | s | 1 | between fixes, in local time |
+//! | `gnss.position_error_m` | m | `[1, 1, 1]` | error per axis |
+//! | `gnss.time_error_s` | s | 1e-6 | error of the time |
+//! | **`[group.modem]`** | | | |
+//! | `range_m` | m | 500 | others hear it so far |
+//! | `ping_period_s` | s | 1 | between pings, in local time; `false` for a silent AUV |
+//! | `ping_phase_s` | s | drawn | local time of the first ping |
+//! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
+//! | `frame_bytes` | | 64 | bytes that one ping may have; 32 at least |
+//! | **`[group.start]`** | | | |
+//! | `region_m` | m | the area | places are drawn in this region |
+//! | `points_m` | m | | one place for each AUV, instead |
+//! | `place` | | | `"on-circle"`: spread evenly on the controller's circle, instead |
+//! | `box_width_m` | m | 10 | width of the prior box, or `[least, greatest]` |
+//! | `heading_rad` | rad | drawn | heading; on a circle, along it |
+//! | `speed_m_s` | m/s | the controller's | speed through the water |
+//! | **`controller`** `"hold"` | | | stays where the run begins |
+//! | **`controller`** `"circle"` | | | see [`Controller::Circle`] |
+//! | `centre_m`, `radius_m`, `rate_rad_s` | m, m, rad/s | needed | the circle; a negative rate turns clockwise |
+//! | `phase_rad` | rad | 0 | angle of the first AUV at time 0, counter-clockwise from east |
+//! | `heave_m`, `heave_phase_rad` | m, rad | 0 | vertical motion and its phase against the angle |
+//! | **`controller`** `"waypoints"` | | | |
+//! | `points_m` | m | needed | visited in turn |
+//! | `speed_m_s` | m/s | 3/4 of the greatest | cruise speed |
+//! | `reach_m` | m | 5 | a point counts as reached within this distance |
+//! | `repeat` | | `true` | the first point follows the last |
+//! | **`controller`** `"reynolds"` | | | separation, cohesion, alignment |
+//! | `speed_m_s` | m/s | 3/4 of the greatest | cruise speed |
+//! | `separation`, `cohesion`, `alignment` | | 1 | weights |
+//! | `margin_m` | m | 5 | added to the separation distance |
+//! | `forget_s` | s | 5 | a neighbour not heard for so long is forgotten, in local time |
+//! | `trusts` | | all | names of the groups heeded in cohesion and alignment |
+//! | **`[sabotage]`** | | | a test of the checker: |
+//! | `shifted_truth` | s | | `{ auv = 0, at_s = 5 }` moves that AUV's truth by a metre at that time |
+
+mod body;
+mod diagnostics;
+mod document;
+mod environment;
+mod examples;
+mod group;
+mod library;
+pub mod model;
+mod number;
+mod overrides;
+pub mod presets;
+mod reader;
+mod sensing;
+mod start;
+mod steering;
+mod time;
+
+pub use diagnostics::{Diagnostic, SHOWN_ERRORS_MAX, ScenarioErrors};
+pub use document::parse;
+pub use library::{LibraryEntry, LoadError, library, load};
+pub use model::*;
+pub use overrides::{OverrideError, Overrides};
+
+/// Most AUVs that a run can have.
+pub const AUVS_MAX: u32 = 65_536;
+
+/// Most groups, kinds and clocks that one scenario can have, each.
+pub const TABLES_MAX: usize = 1024;
+
+/// Longest lockstep window in nanoseconds of true time: no AUV with this reaction time and clock can act on what happens
+/// in a window before the window has ended.
+///
+/// `floor((reaction - 2 ns) / (1 + drift))`: a clock can run fast by the drift, and a stamp and a tick each give away one
+/// nanosecond.
+///
+/// ```
+/// assert_eq!(shoal_scenario::window_limit_ns(100_000_000, 0.1), 90_909_089);
+/// ```
+pub fn window_limit_ns(reaction_ns: i64, drift_bound: f64) -> i64 {
+    (reaction_ns.saturating_sub(2) as f64 / (1.0 + drift_bound)).floor() as i64
+}

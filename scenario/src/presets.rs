@@ -1,0 +1,66 @@
+//! Bodies and clocks by name. What a scenario file calls `kind = "lauv"` or `clock = "tcxo"` is here and nowhere else.
+
+use crate::model::{Clock, Kind};
+
+/// Kind of a group that does not say its kind.
+pub const KIND_DEFAULT: &str = "lauv";
+/// Clock of a group that does not say its clock.
+pub const CLOCK_DEFAULT: &str = "tcxo";
+
+/// How far from its commanded velocity moving water pushes a small body, in m/s per axis: our own round figure.
+const DISTURBANCE_M_S: [f64; 3] = [0.05, 0.05, 0.02];
+
+/// Bodies by name.
+///
+/// Lengths and greatest speeds are the makers' published figures, rounded. Makers do not publish accelerations, rates of
+/// turn and the pitch that the controller allows: those are our own round estimates for bodies of that size.
+pub const KINDS: &[(&str, Kind)] = &[
+    // OceanScan-MST LAUV, data sheet: 1.8 to 2.5 m depending on payload, up to 5 knots.
+    (
+        "lauv",
+        Kind {
+            speed_max_m_s: 2.5,
+            acceleration_max_m_s2: 0.3,
+            turn_rate_max_rad_s: 0.35,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 2.4,
+        },
+    ),
+    // REMUS 100, data sheet: 1.6 m, up to 5 knots; Allen et al., OCEANS 1997.
+    (
+        "remus-100",
+        Kind {
+            speed_max_m_s: 2.5,
+            acceleration_max_m_s2: 0.3,
+            turn_rate_max_rad_s: 0.3,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 1.6,
+        },
+    ),
+    // Teledyne Slocum G3, data sheet: 1.5 m, 0.35 m/s on average and about 0.5 m/s at most, glide angle 26 degrees.
+    (
+        "glider",
+        Kind {
+            speed_max_m_s: 0.5,
+            acceleration_max_m_s2: 0.02,
+            turn_rate_max_rad_s: 0.05,
+            pitch_max_rad: 0.4538,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 1.5,
+        },
+    ),
+];
+
+/// Clocks by name. Half of each bound is a constant rate error, half wanders; they start synchronised.
+pub const CLOCKS: &[(&str, Clock)] = &[
+    // Never drifts.
+    ("ideal", Clock { drift_bound: 0.0, wander_fraction: 0.0, offset_bound_s: 0.0 }),
+    // A plain quartz: 20 ppm of tolerance and about as much again over temperature and age, rounded up to 50 ppm.
+    ("quartz", Clock { drift_bound: 5e-5, wander_fraction: 0.5, offset_bound_s: 0.0 }),
+    // Temperature-compensated quartz: 1 ppm, the usual grade of data loggers.
+    ("tcxo", Clock { drift_bound: 1e-6, wander_fraction: 0.5, offset_bound_s: 0.0 }),
+    // Chip-scale atomic clock, Microchip SA.45s data sheet: some 1e-10, after warming up and without ageing.
+    ("csac", Clock { drift_bound: 1e-10, wander_fraction: 0.5, offset_bound_s: 0.0 }),
+];
