@@ -1,0 +1,165 @@
+//! Lockstep: the one meaning that every transport keeps.
+//!
+//! The channel advances in windows. In each it sends every AUV that is due its ordered batch of [`Sensed`], and waits until
+//! each of them has answered with as many [`Acted`], or has died. Slowness is waited for and changes nothing.
+
+use thiserror::Error;
+
+use crate::message::{Acted, AuvId, Born, Sensed};
+
+/// One AUV's ordered batch for one window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch<T> {
+    /// Whose.
+    pub auv: AuvId,
+    /// In the order of its ticks.
+    pub items: Vec<T>,
+}
+
+/// An AUV that is gone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loss {
+    /// Who.
+    pub auv: AuvId,
+    /// How it ended, as a clause: `killed by signal 9`, `exited with code 101: <its last words>`.
+    pub reason: String,
+}
+
+/// What a window brought back.
+#[derive(Debug, Default, PartialEq)]
+pub struct Answers {
+    /// Answers, sorted by AUV, one [`Acted`] for every [`Sensed`] of the batch.
+    pub acted: Vec<Batch<Acted>>,
+    /// AUVs that were found dead in this window; they have no answer.
+    pub losses: Vec<Loss>,
+}
+
+/// The channel's end of a transport: all AUVs of a run.
+pub trait Fleet {
+    /// Waits for every AUV to report in and tells each what it is. `born` is sorted by AUV. Those that die before they
+    /// answer are returned as losses.
+    fn born(&mut self, born: &[Born]) -> Result<Vec<Loss>, FleetError>;
+
+    /// Sends the batches (sorted by AUV) and gathers the answers. An AUV without a batch stays asleep.
+    fn exchange(&mut self, sensed: &[Batch<Sensed>]) -> Result<Answers, FleetError>;
+
+    /// Tells every AUV that the run is over.
+    fn end(&mut self);
+}
+
+/// An AUV's end of a transport.
+pub trait Link {
+    /// The next message from the channel; blocks.
+    fn receive(&mut self) -> Result<ToAuv, LinkError>;
+    /// Answers the batch just received.
+    fn answer(&mut self, acted: Vec<Acted>) -> Result<(), LinkError>;
+}
+
+/// From the channel to one AUV.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum ToAuv {
+    /// What you are.
+    Born(Box<Born>),
+    /// What you sensed, tick by tick.
+    Sensed(Vec<Sensed>),
+    /// The run is over.
+    End,
+}
+
+/// From one AUV to the channel.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum FromAuv {
+    /// The process is up.
+    Hello,
+    /// The answers to one batch.
+    Acted(Vec<Acted>),
+}
+
+/// One vehicle's mind as a pure state machine.
+pub trait Mind {
+    /// Takes in one tick and answers it.
+    fn step(&mut self, sensed: &Sensed) -> Acted;
+}
+
+/// Lives one AUV's life on a link: waits to be born, answers batches, ends when told.
+pub fn live<M: Mind>(link: &mut dyn Link, be_born: impl Fn(&Born) -> M) -> Result<(), LinkError> {
+    let mut mind: Option<M> = None;
+    loop {
+        match link.receive()? {
+            ToAuv::Born(born) => mind = Some(be_born(&born)),
+            ToAuv::Sensed(batch) => {
+                let Some(mind) = mind.as_mut() else { return Err(LinkError::NotBorn) };
+                let acted = batch.iter().map(|sensed| mind.step(sensed)).collect();
+                link.answer(acted)?;
+            }
+            ToAuv::End => return Ok(()),
+        }
+    }
+}
+
+/// What stops the channel's end of a transport.
+#[derive(Debug, Error)]
+pub enum FleetError {
+    /// The transport could not be set up.
+    #[error("the {bus} bus could not be set up: {cause}")]
+    Setup {
+        /// Which transport.
+        bus: &'static str,
+        /// What its library said.
+        cause: String,
+    },
+    /// The transport failed in the middle of a run.
+    #[error("the {bus} bus failed: {cause}")]
+    Failed {
+        /// Which transport.
+        bus: &'static str,
+        /// What its library said.
+        cause: String,
+    },
+    /// Live AUVs gave no answer for a very long time.
+    #[error("AUVs {} gave no answer for {limit_s} s, though their processes are alive", list(waiting))]
+    Stalled {
+        /// Who is being waited for.
+        waiting: Vec<AuvId>,
+        /// For how long.
+        limit_s: u64,
+    },
+    /// The launcher asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// What stops an AUV's end of a transport.
+#[derive(Debug, Error)]
+pub enum LinkError {
+    /// The transport could not be set up.
+    #[error("AUV {auv} could not join the {bus} bus: {cause}")]
+    Setup {
+        /// Who.
+        auv: AuvId,
+        /// Which transport.
+        bus: &'static str,
+        /// What its library said.
+        cause: String,
+    },
+    /// The transport failed.
+    #[error("the {bus} bus failed: {cause}")]
+    Failed {
+        /// Which transport.
+        bus: &'static str,
+        /// What its library said.
+        cause: String,
+    },
+    /// A message could not be read.
+    #[error("a message from the channel could not be read: {0}")]
+    Codec(#[from] crate::codec::CodecError),
+    /// A batch came before birth.
+    #[error("the channel sent a batch before it sent what this AUV is")]
+    NotBorn,
+}
+
+fn list(auvs: &[AuvId]) -> String {
+    let shown: Vec<String> = auvs.iter().take(10).map(AuvId::to_string).collect();
+    let more = auvs.len().saturating_sub(shown.len());
+    if more == 0 { shown.join(", ") } else { format!("{} and {more} more", shown.join(", ")) }
+}

@@ -1,0 +1,286 @@
+//! The ping as the modem sends it: 32 bytes, every interval rounded **outwards** to the few bits it gets.
+//!
+//! | bytes | field | unit |
+//! |---|---|---|
+//! | 0 | version (3 high bits), exponent `e` of the emission width (5 low bits) | |
+//! | 1-2 | sender, `u16` | |
+//! | 3-4 | sequence number modulo 65,536, `u16` | |
+//! | 5-10 | earliest true time of emission, `i48` | 2⁻²⁰ s |
+//! | 11 | width of the emission interval, `u8` | 2^(e-20) s |
+//! | 12 | exponent `p` of the position, `i8` | |
+//! | 13-21 | least x, y, z, three `i24` | 2^p m |
+//! | 22-24 | widths of x, y, z, three `u8` | 2^p m |
+//! | 25 | exponent `v` of the velocity, `i8` | |
+//! | 26-28 | least velocity, three `i8` | 2^v m/s |
+//! | 29-31 | widths of the velocity, three `u8` | 2^v m/s |
+//!
+//! All integers are little-endian. Scaling by a power of two is exact in binary floating point, floor and ceiling are too,
+//! so the decoded intervals always hold the encoded ones.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::message::{AuvId, Bounds, BoundsBox};
+
+/// Length of an encoded ping.
+pub const FRAME_BYTES: usize = 32;
+
+const VERSION: u8 = 1;
+const TIME_UNIT_EXPONENT: i32 = -20;
+const EXPONENTS: std::ops::RangeInclusive<i32> = -60..=60;
+
+/// The bytes that a modem carries. May hold anything: decode before you believe.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Frame(pub Vec<u8>);
+
+/// What a ping says: where its emitter was when it left, and how it moved.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ping {
+    /// Who emits.
+    pub sender: AuvId,
+    /// Counts the emitter's pings, modulo 65,536.
+    pub sequence: u16,
+    /// True time of the emission, in seconds.
+    pub emission_s: Bounds,
+    /// Position of the emitter at the emission, in metres.
+    pub position_m: BoundsBox,
+    /// Velocity over ground of the emitter at the emission, in m/s.
+    pub velocity_m_s: BoundsBox,
+}
+
+/// Why a ping does not fit its frame, or a frame is not a ping.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum FrameError {
+    /// A field is too wide, too far away or not a number.
+    #[error("the {field} is unbounded or too large for a frame")]
+    TooLarge {
+        /// Which field.
+        field: &'static str,
+    },
+    /// The sender's id does not fit.
+    #[error("AUV {0} does not fit: a frame names at most 65,536 senders")]
+    Sender(AuvId),
+    /// The length is wrong.
+    #[error("a ping has {FRAME_BYTES} bytes, this frame has {0}")]
+    Length(usize),
+    /// The version is unknown.
+    #[error("the frame has version {0}, this build reads version {VERSION}")]
+    Version(u8),
+}
+
+impl Ping {
+    /// The frame whose decoded intervals hold this ping's, each wider by less than 2 % of its block's widest or one unit.
+    ///
+    /// ```
+    /// use shoal_bus::message::{AuvId, Bounds};
+    /// use shoal_bus::ping::Ping;
+    /// let side = Bounds::new(-0.3, 12.7);
+    /// let ping = Ping { sender: AuvId(7), sequence: 3, emission_s: Bounds::new(9.99, 10.01),
+    ///     position_m: [side; 3], velocity_m_s: [Bounds::new(0.9, 1.1); 3] };
+    /// let heard = Ping::decode(&ping.encode()?)?;
+    /// assert!(heard.position_m[0].lower <= -0.3 && heard.position_m[0].upper >= 12.7);
+    /// assert!(heard.emission_s.lower <= 9.99 && heard.emission_s.upper >= 10.01);
+    /// # Ok::<(), shoal_bus::ping::FrameError>(())
+    /// ```
+    pub fn encode(&self) -> Result<Frame, FrameError> {
+        let sender = u16::try_from(self.sender.0).map_err(|_| FrameError::Sender(self.sender))?;
+        let (emission, widen) = quantise_time(self.emission_s)?;
+        let position =
+            Block::of(&self.position_m, 24).ok_or(FrameError::TooLarge { field: "position box" })?;
+        let velocity =
+            Block::of(&self.velocity_m_s, 8).ok_or(FrameError::TooLarge { field: "velocity box" })?;
+
+        let mut bytes = Vec::with_capacity(FRAME_BYTES);
+        bytes.push(VERSION << 5 | widen.exponent);
+        bytes.extend(sender.to_le_bytes());
+        bytes.extend(self.sequence.to_le_bytes());
+        bytes.extend(&emission.to_le_bytes()[..6]);
+        bytes.push(widen.width);
+        position.write(3, &mut bytes);
+        velocity.write(1, &mut bytes);
+        Ok(Frame(bytes))
+    }
+
+    /// Reads a frame. Any 32 bytes of the right version are some ping; whether it is true is another question.
+    pub fn decode(frame: &Frame) -> Result<Self, FrameError> {
+        let bytes: &[u8; FRAME_BYTES] =
+            frame.0.as_slice().try_into().map_err(|_| FrameError::Length(frame.0.len()))?;
+        let version = bytes[0] >> 5;
+        if version != VERSION {
+            return Err(FrameError::Version(version));
+        }
+        let earliest = signed(&bytes[5..11]) as f64 * power_of_two(TIME_UNIT_EXPONENT);
+        let width = f64::from(bytes[11]) * power_of_two(TIME_UNIT_EXPONENT + i32::from(bytes[0] & 31));
+        Ok(Self {
+            sender: AuvId(u32::from(u16::from_le_bytes([bytes[1], bytes[2]]))),
+            sequence: u16::from_le_bytes([bytes[3], bytes[4]]),
+            emission_s: Bounds::new(earliest, earliest + width),
+            position_m: Block::read(&bytes[12..25], 3),
+            velocity_m_s: Block::read(&bytes[25..32], 1),
+        })
+    }
+}
+
+/// Width of the emission interval: `width * 2^exponent` units.
+struct Widen {
+    exponent: u8,
+    width: u8,
+}
+
+/// The earliest emission in units of 2⁻²⁰ s, and a width that reaches at least to the latest.
+fn quantise_time(time_s: Bounds) -> Result<(i64, Widen), FrameError> {
+    let too_large = FrameError::TooLarge { field: "emission interval" };
+    let units_per_s = power_of_two(-TIME_UNIT_EXPONENT);
+    let (least, greatest) = ((time_s.lower * units_per_s).floor(), (time_s.upper * units_per_s).ceil());
+    let limit = power_of_two(46);
+    if !(least.abs() < limit && greatest.abs() < limit && least <= greatest) {
+        return Err(too_large);
+    }
+    let width = (greatest - least) as u64;
+    for exponent in 0..32u8 {
+        let rounded = width.div_ceil(1 << exponent);
+        if let Ok(width) = u8::try_from(rounded) {
+            return Ok((least as i64, Widen { exponent, width }));
+        }
+    }
+    Err(too_large)
+}
+
+/// Three intervals in units of one power of two: integer lower bounds and 8-bit widths.
+struct Block {
+    exponent: i8,
+    lower: [i64; 3],
+    width: [u8; 3],
+}
+
+impl Block {
+    /// The finest block whose lower bounds fit `bits`.
+    fn of(sides: &BoundsBox, bits: u32) -> Option<Self> {
+        if !sides.iter().all(|side| side.is_valid() && side.lower.is_finite() && side.upper.is_finite()) {
+            return None;
+        }
+        // A first guess from the largest quantities; the loop settles what rounding adds.
+        let widest = crate::message::box_width(sides);
+        let farthest = sides.iter().fold(0.0_f64, |far, side| far.max(side.lower.abs()));
+        let needed = (widest / 255.0).max(farthest / power_of_two(bits as i32 - 1));
+        let guess = binary_exponent(needed).clamp(*EXPONENTS.start(), *EXPONENTS.end());
+        (guess..=*EXPONENTS.end()).find_map(|exponent| Self::at(sides, bits, exponent))
+    }
+
+    fn at(sides: &BoundsBox, bits: u32, exponent: i32) -> Option<Self> {
+        let units = power_of_two(-exponent);
+        let limit = power_of_two(bits as i32 - 1);
+        let mut block = Self { exponent: exponent as i8, lower: [0; 3], width: [0; 3] };
+        for (axis, side) in sides.iter().enumerate() {
+            let (least, greatest) = ((side.lower * units).floor(), (side.upper * units).ceil());
+            if least < -limit || least >= limit || greatest - least > 255.0 {
+                return None;
+            }
+            block.lower[axis] = least as i64;
+            block.width[axis] = (greatest - least) as u8;
+        }
+        Some(block)
+    }
+
+    fn write(&self, lower_bytes: usize, bytes: &mut Vec<u8>) {
+        bytes.push(self.exponent as u8);
+        for lower in self.lower {
+            bytes.extend(&lower.to_le_bytes()[..lower_bytes]);
+        }
+        bytes.extend(self.width);
+    }
+
+    fn read(bytes: &[u8], lower_bytes: usize) -> BoundsBox {
+        // A hostile exponent is brought into the range that an honest encoder uses.
+        let exponent = i32::from(bytes[0] as i8).clamp(*EXPONENTS.start(), *EXPONENTS.end());
+        let unit = power_of_two(exponent);
+        std::array::from_fn(|axis| {
+            let at = 1 + axis * lower_bytes;
+            let lower = signed(&bytes[at..at + lower_bytes]);
+            let width = i64::from(bytes[1 + 3 * lower_bytes + axis]);
+            Bounds::new(lower as f64 * unit, (lower + width) as f64 * unit)
+        })
+    }
+}
+
+/// Little-endian two's complement of up to eight bytes.
+fn signed(bytes: &[u8]) -> i64 {
+    let mut wide = [0; 8];
+    wide[8 - bytes.len()..].copy_from_slice(bytes);
+    i64::from_le_bytes(wide) >> (64 - 8 * bytes.len())
+}
+
+/// 2^`exponent` exactly, for exponents of normal numbers.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// The largest e with 2^e <= `value`; very small for zero.
+fn binary_exponent(value: f64) -> i32 {
+    ((value.to_bits() >> 52 & 0x7ff) as i32) - 1023
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ping(position_m: BoundsBox, velocity_m_s: BoundsBox, emission_s: Bounds) -> Ping {
+        Ping { sender: AuvId(513), sequence: 65_535, emission_s, position_m, velocity_m_s }
+    }
+
+    fn holds(outer: &Bounds, inner: &Bounds) -> bool {
+        outer.lower <= inner.lower && inner.upper <= outer.upper
+    }
+
+    #[test]
+    fn decoded_intervals_hold_the_encoded_ones_and_stay_tight() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut draw = move |scale: f64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 / (1u64 << 53) as f64 * 2.0 - 1.0) * scale
+        };
+        for _ in 0..20_000 {
+            let scale = power_of_two(draw(20.0) as i32);
+            let side = |draw: &mut dyn FnMut(f64) -> f64| {
+                let lower = draw(5_000.0);
+                Bounds::new(lower, lower + draw(scale).abs())
+            };
+            let position = [side(&mut draw), side(&mut draw), side(&mut draw)];
+            let velocity = std::array::from_fn(|_| {
+                let lower = draw(3.0);
+                Bounds::new(lower, lower + draw(0.5).abs())
+            });
+            let emitted = draw(1e6);
+            let original = ping(position, velocity, Bounds::new(emitted, emitted + draw(2.0).abs()));
+            let decoded = Ping::decode(&original.encode().unwrap()).unwrap();
+            assert_eq!((decoded.sender, decoded.sequence), (original.sender, original.sequence));
+            assert!(holds(&decoded.emission_s, &original.emission_s));
+            let loss = decoded.emission_s.width() - original.emission_s.width();
+            assert!(loss <= original.emission_s.width() * 0.02 + 4e-6, "{loss}");
+            let widest = crate::message::box_width(&position);
+            for axis in 0..3 {
+                assert!(holds(&decoded.position_m[axis], &position[axis]));
+                assert!(holds(&decoded.velocity_m_s[axis], &velocity[axis]));
+                let loss = decoded.position_m[axis].width() - position[axis].width();
+                assert!(loss <= widest * 0.02 + 0.002, "{loss} of {widest}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let fine = [Bounds::new(0.0, 1.0); 3];
+        let moment = Bounds::new(0.0, 1.0);
+        let endless = [Bounds::new(f64::NEG_INFINITY, 0.0); 3];
+        assert!(matches!(ping(endless, fine, moment).encode(), Err(FrameError::TooLarge { .. })));
+        let nan = [Bounds::new(f64::NAN, 0.0); 3];
+        assert!(matches!(ping(fine, nan, moment).encode(), Err(FrameError::TooLarge { .. })));
+        assert!(matches!(ping(fine, fine, Bounds::new(0.0, 1e9)).encode(), Err(FrameError::TooLarge { .. })));
+        let mut crowd = ping(fine, fine, moment);
+        crowd.sender = AuvId(70_000);
+        assert_eq!(crowd.encode(), Err(FrameError::Sender(AuvId(70_000))));
+        assert_eq!(Ping::decode(&Frame(vec![32; 3])), Err(FrameError::Length(3)));
+        assert_eq!(Ping::decode(&Frame(vec![0xff; 32])), Err(FrameError::Version(7)));
+    }
+}

@@ -1,0 +1,259 @@
+//! The rows of the JSON topics, as Rust types: what `bus/schemas/` describes for everyone else.
+//!
+//! A number that is not finite is `null` in JSON and reads back as NaN; every finite number reads back with the same bits.
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::chronicle::Truth;
+use crate::message::{Acted, AuvId, Bounds, BoundsBox, Culprit, Emptied};
+use crate::time::{LocalTime, SimTime};
+use crate::traffic::{Fate, LossReason, Traffic};
+
+/// A number that may be other than finite: `null` in JSON, then.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Real(pub f64);
+
+impl<'de> Deserialize<'de> for Real {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(Self(Option::deserialize(deserializer)?.unwrap_or(f64::NAN)))
+    }
+}
+
+/// Three coordinates: x east, y north, z up.
+pub type Vector = [Real; 3];
+
+/// `[lower, upper]`.
+pub type Pair = [Real; 2];
+
+fn vector(of: [f64; 3]) -> Vector {
+    of.map(Real)
+}
+
+fn pair(of: Bounds) -> Pair {
+    [Real(of.lower), Real(of.upper)]
+}
+
+fn sides(of: BoundsBox) -> [Pair; 3] {
+    of.map(pair)
+}
+
+/// One AUV's true state at one of its ticks: an element of `ticks` in `shoal.Truth/1`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TruthRow {
+    /// Which AUV.
+    pub auv: AuvId,
+    /// Index of its tick.
+    pub tick: u64,
+    /// True time, in nanoseconds.
+    pub t_ns: SimTime,
+    /// What its clock reads, in nanoseconds.
+    pub local_ns: LocalTime,
+    /// Position, in metres.
+    pub position_m: Vector,
+    /// Velocity through the water, in m/s.
+    pub velocity_m_s: Vector,
+    /// Heading, in rad.
+    pub heading_rad: Real,
+    /// Pitch, in rad.
+    pub pitch_rad: Real,
+}
+
+impl TruthRow {
+    /// The row of `truth` about `auv` at `t_ns`.
+    pub fn new(t_ns: SimTime, auv: AuvId, truth: &Truth) -> Self {
+        Self {
+            auv,
+            tick: truth.tick,
+            t_ns,
+            local_ns: truth.local,
+            position_m: vector(truth.position_m),
+            velocity_m_s: vector(truth.velocity_m_s),
+            heading_rad: Real(truth.heading_rad),
+            pitch_rad: Real(truth.pitch_rad),
+        }
+    }
+}
+
+/// What one AUV answered and believed at one of its ticks: an element of `reports` in `shoal.Reports/1`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReportRow {
+    /// Which AUV.
+    pub auv: AuvId,
+    /// Index of its tick.
+    pub tick: u64,
+    /// True time, in nanoseconds.
+    pub t_ns: SimTime,
+    /// What its clock reads, in nanoseconds; `None` when the truth at this tick was not recorded before it.
+    pub local_ns: Option<LocalTime>,
+    /// Encloses its position at the tick, in metres.
+    pub position_m: [Pair; 3],
+    /// Encloses true time minus local time at the tick, in seconds.
+    pub clock_offset_s: Pair,
+    /// Encloses its position since the tick before, in metres.
+    pub slice_position_m: [Pair; 3],
+    /// Encloses true time minus local time since the tick before, in seconds.
+    pub slice_clock_offset_s: Pair,
+    /// Why the enclosure emptied, if it did.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub emptied: Option<EmptiedRow>,
+    /// Neighbours that the controller heeds.
+    pub neighbours: u16,
+    /// Measurements that made the enclosure smaller since the tick before.
+    pub contractions: u16,
+    /// Desired velocity through the water, in m/s.
+    pub setpoint_m_s: Vector,
+    /// Pings booked at this tick.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub booked: Vec<BookedRow>,
+}
+
+impl ReportRow {
+    /// The row of `acted`, the answer of `auv` at `t_ns`.
+    pub fn new(t_ns: SimTime, auv: AuvId, local_ns: Option<LocalTime>, acted: &Acted) -> Self {
+        let report = &acted.report;
+        Self {
+            auv,
+            tick: acted.tick,
+            t_ns,
+            local_ns,
+            position_m: sides(report.position_m),
+            clock_offset_s: pair(report.clock_offset_s),
+            slice_position_m: sides(report.slice.position_m),
+            slice_clock_offset_s: pair(report.slice.clock_offset_s),
+            emptied: report.emptied.map(EmptiedRow::new),
+            neighbours: report.neighbours,
+            contractions: report.contractions,
+            setpoint_m_s: vector(acted.setpoint.velocity_m_s),
+            booked: acted
+                .pings
+                .iter()
+                .map(|ping| BookedRow { at_local_ns: ping.at, frame: hexadecimal(&ping.frame.0) })
+                .collect(),
+        }
+    }
+}
+
+/// Why an enclosure emptied.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct EmptiedRow {
+    /// Local time of the measurement that left nothing, in nanoseconds.
+    pub at_local_ns: LocalTime,
+    /// `inertial`, `depth`, `gnss`, `ping` or `sabotage`.
+    pub by: String,
+    /// Who sent the ping, for `ping`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub sender: Option<AuvId>,
+}
+
+impl EmptiedRow {
+    fn new(emptied: Emptied) -> Self {
+        let (by, sender) = match emptied.by {
+            Culprit::Inertial => ("inertial", None),
+            Culprit::Depth => ("depth", None),
+            Culprit::Gnss => ("gnss", None),
+            Culprit::Ping(sender) => ("ping", Some(sender)),
+            Culprit::Sabotage => ("sabotage", None),
+        };
+        Self { at_local_ns: emptied.stamp, by: by.to_owned(), sender }
+    }
+}
+
+/// A ping booked for a local time.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BookedRow {
+    /// Local time of the emission, in nanoseconds.
+    pub at_local_ns: LocalTime,
+    /// The frame's bytes, two hexadecimal digits each.
+    pub frame: String,
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    let digit = |nibble: u8| char::from(b"0123456789abcdef"[usize::from(nibble & 15)]);
+    bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(*byte)]).collect()
+}
+
+/// What happened to a ping: an element of `pings` in `shoal.Pings/1`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "fate", rename_all = "snake_case")]
+pub enum PingRow {
+    /// It left the emitter's modem.
+    Emitted {
+        /// True time, in nanoseconds.
+        t_ns: SimTime,
+        /// The emitter.
+        from: AuvId,
+        /// The emitter's sequence number.
+        sequence: u32,
+        /// True position of the emitter, in metres.
+        position_m: Vector,
+        /// Length of the frame, in bytes.
+        bytes: u16,
+        /// Width of the position box that it carries, in metres.
+        box_width_m: Real,
+        /// AUVs that are too far away to ever hear it.
+        beyond_range: u32,
+    },
+    /// It was decoded.
+    Heard {
+        /// True time, in nanoseconds.
+        t_ns: SimTime,
+        /// The emitter.
+        from: AuvId,
+        /// The emitter's sequence number.
+        sequence: u32,
+        /// The receiver.
+        to: AuvId,
+        /// Distance from emitter at emission to receiver at reception, in metres.
+        range_m: Real,
+        /// True travel time, in seconds.
+        travel_s: Real,
+        /// Width of the position box that it carries, in metres.
+        box_width_m: Real,
+    },
+    /// It was not decoded, or never left.
+    Lost {
+        /// True time, in nanoseconds.
+        t_ns: SimTime,
+        /// The emitter.
+        from: AuvId,
+        /// The emitter's sequence number.
+        sequence: u32,
+        /// The receiver; `None` for a ping that never left.
+        to: Option<AuvId>,
+        /// Why.
+        reason: LossReason,
+        /// Distance as for `heard`, in metres; 0 for a ping that never left.
+        range_m: Real,
+    },
+}
+
+impl PingRow {
+    /// The row of `traffic`.
+    pub fn new(traffic: &Traffic) -> Self {
+        let Traffic { at: t_ns, from, sequence, fate } = *traffic;
+        match fate {
+            Fate::Emitted { position_m, bytes, box_width_m, beyond_range } => Self::Emitted {
+                t_ns,
+                from,
+                sequence,
+                position_m: vector(position_m),
+                bytes,
+                box_width_m: Real(box_width_m),
+                beyond_range,
+            },
+            Fate::Heard { to, range_m, travel_s, box_width_m } => Self::Heard {
+                t_ns,
+                from,
+                sequence,
+                to,
+                range_m: Real(range_m),
+                travel_s: Real(travel_s),
+                box_width_m: Real(box_width_m),
+            },
+            Fate::Lost { to, reason, range_m } => {
+                Self::Lost { t_ns, from, sequence, to, reason, range_m: Real(range_m) }
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The topics of a record: their names, schemas and encodings.
+
+/// Message encoding of `/sensed`: [`codec::encode`](crate::codec::encode) of `Vec<(SimTime, AuvId, Sensed)>`.
+pub const SENSED_ENCODING: &str = "application/x-shoal-bincode";
+
+/// One topic of a record.
+///
+/// ```
+/// use shoal_bus::record::Topic;
+/// assert_eq!((Topic::Pings.name(), Topic::Pings.schema_name()), ("/pings", "shoal.Pings/1"));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Topic {
+    /// Who takes part.
+    Auvs,
+    /// Poses for viewers.
+    Poses,
+    /// Violations and lost AUVs, for people.
+    Log,
+    /// Exact truth at the ticks.
+    Ticks,
+    /// What the AUVs answered and believed.
+    Reports,
+    /// What crossed the water.
+    Pings,
+    /// What the AUVs were told.
+    Sensed,
+    /// The outcome.
+    Summary,
+}
+
+impl Topic {
+    /// All topics, in the order of their channels.
+    pub const ALL: [Self; 8] = [
+        Self::Auvs,
+        Self::Poses,
+        Self::Log,
+        Self::Ticks,
+        Self::Reports,
+        Self::Pings,
+        Self::Sensed,
+        Self::Summary,
+    ];
+
+    /// The topic's name in the file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auvs => "/auvs",
+            Self::Poses => "/truth",
+            Self::Log => "/log",
+            Self::Ticks => "/ticks",
+            Self::Reports => "/reports",
+            Self::Pings => "/pings",
+            Self::Sensed => "/sensed",
+            Self::Summary => "/summary",
+        }
+    }
+
+    /// Name of its schema, with the version behind a slash.
+    pub fn schema_name(self) -> &'static str {
+        match self {
+            Self::Auvs => "shoal.Auvs/1",
+            Self::Poses => "foxglove.PosesInFrame",
+            Self::Log => "foxglove.Log",
+            Self::Ticks => "shoal.Truth/1",
+            Self::Reports => "shoal.Reports/1",
+            Self::Pings => "shoal.Pings/1",
+            Self::Sensed => "shoal.Sensed/1",
+            Self::Summary => "shoal.Summary/1",
+        }
+    }
+
+    /// The schema: JSON Schema, except for `/sensed`, whose layout is described in words.
+    pub fn schema_text(self) -> &'static str {
+        match self {
+            Self::Auvs => include_str!("../../schemas/shoal.Auvs.1.json"),
+            Self::Poses => include_str!("../../schemas/foxglove.PosesInFrame.json"),
+            Self::Log => include_str!("../../schemas/foxglove.Log.json"),
+            Self::Ticks => include_str!("../../schemas/shoal.Truth.1.json"),
+            Self::Reports => include_str!("../../schemas/shoal.Reports.1.json"),
+            Self::Pings => include_str!("../../schemas/shoal.Pings.1.json"),
+            Self::Sensed => include_str!("../../schemas/shoal.Sensed.1.txt"),
+            Self::Summary => include_str!("../../schemas/shoal.Summary.1.json"),
+        }
+    }
+
+    /// Encoding of its schema.
+    pub fn schema_encoding(self) -> &'static str {
+        match self {
+            Self::Sensed => "text/plain",
+            _ => "jsonschema",
+        }
+    }
+
+    /// Encoding of its messages.
+    pub fn message_encoding(self) -> &'static str {
+        match self {
+            Self::Sensed => SENSED_ENCODING,
+            _ => "json",
+        }
+    }
+}

@@ -1,0 +1,373 @@
+//! The channel's end.
+
+use std::fmt::Display;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use iceoryx2::prelude::{Node, ipc};
+
+use super::arena::read_answer;
+use super::control::Control;
+use super::members::{Group, InterruptHandle, Member, Shared};
+use super::{BUS, GROUP_MAX};
+use crate::codec;
+use crate::iceoryx::{self, Island};
+use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss};
+use crate::message::{Acted, AuvId, Born, Sensed};
+use crate::os::{keep_descriptors_from_children, raise_descriptor_limit};
+use crate::run_dir::RunDir;
+use crate::watch::Watch;
+use crate::wire::{NOT_A_MESSAGE, PROCESS_ENDED, ToAuvRef, read_acted};
+
+/// How long live AUVs may be silent unless [`SharedMemoryFleet::set_stall_limit`] says otherwise.
+const STALL_LIMIT: Duration = Duration::from_secs(300);
+
+/// How long the channel sleeps before it looks by itself; it is woken for everything that it must know.
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
+
+/// The same in a window in which an AUV died, perhaps just when it was to wake the channel.
+const LOOK_AGAIN_AFTER_LOSS: Duration = Duration::from_millis(1);
+
+/// Splits AUVs into wake-up groups of at most [`GROUP_MAX`], in their order: sort them by the phase of their ticks first, so
+/// that few groups are due in a short window.
+pub fn wake_groups(auvs: &[AuvId]) -> Vec<Vec<AuvId>> {
+    auvs.chunks(GROUP_MAX).map(<[AuvId]>::to_vec).collect()
+}
+
+/// The channel's end of the `iceoryx2` transport.
+pub struct SharedMemoryFleet {
+    // The watching thread first: it refers to all the rest.
+    watch: Watch,
+    groups: Vec<Group>,
+    members: Vec<Member>,
+    shared: Arc<Shared>,
+    window: u32,
+    stall_limit: Duration,
+    _node: Node<ipc::Service>,
+}
+
+impl SharedMemoryFleet {
+    /// Makes the control block and the services of `run`, for the AUVs in `groups` (see [`wake_groups`]). Do this before
+    /// their processes start.
+    pub fn create(run: &RunDir, groups: &[Vec<AuvId>]) -> Result<Self, FleetError> {
+        Self::try_create(run, groups).map_err(|cause| FleetError::Setup { bus: BUS, cause })
+    }
+
+    fn try_create(run: &RunDir, groups: &[Vec<AuvId>]) -> Result<Self, String> {
+        raise_descriptor_limit().map_err(|error| format!("descriptor limit: {error}"))?;
+        let mut placed: Vec<(AuvId, usize)> = Vec::new();
+        for (group, auvs) in groups.iter().enumerate() {
+            placed.extend(auvs.iter().map(|auv| (*auv, group)));
+        }
+        placed.sort_unstable();
+        if let Some(twice) = placed.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            return Err(format!("AUV {} is in two wake-up groups", twice[0].0));
+        }
+        let node = iceoryx::node(run, Island::Agents)?;
+        let made = groups.iter().enumerate().map(|(index, auvs)| Group::create(&node, index, auvs.len()));
+        let groups = made.collect::<Result<Vec<Group>, String>>()?;
+        let control =
+            Control::create(run, &placed, groups.len()).map_err(|error| format!("control block: {error}"))?;
+        let shared = Arc::new(Shared {
+            control,
+            has_ended: placed.iter().map(|_| AtomicBool::new(false)).collect(),
+            is_interrupted: AtomicBool::new(false),
+        });
+        let seen_by_watch = Arc::clone(&shared);
+        let watch =
+            Watch::new(move |auv| seen_by_watch.end(auv)).map_err(|error| format!("watch: {error}"))?;
+        keep_descriptors_from_children().map_err(|error| format!("descriptors: {error}"))?;
+        let member = |&(auv, group): &(AuvId, usize)| Member { auv, group, pid: None, is_alive: false };
+        Ok(Self {
+            watch,
+            groups,
+            members: placed.iter().map(member).collect(),
+            shared,
+            window: 0,
+            stall_limit: STALL_LIMIT,
+            _node: node,
+        })
+    }
+
+    /// Says which process is which AUV, so that its end is noticed; again for one that was restarted.
+    pub fn attach_processes(&mut self, processes: &[(AuvId, u32)]) -> Result<(), FleetError> {
+        for (auv, pid) in processes {
+            let index = self.index(*auv)?;
+            self.members[index].pid = Some(*pid);
+            self.shared.has_ended[index].store(false, Ordering::Release);
+            self.watch.attach(*auv, *pid).map_err(failed)?;
+        }
+        Ok(())
+    }
+
+    /// How long live AUVs may be silent before [`FleetError::Stalled`]; 300 s at first.
+    pub fn set_stall_limit(&mut self, limit: Duration) {
+        self.stall_limit = limit;
+    }
+
+    /// A handle that makes this fleet give up.
+    pub fn interrupt_handle(&self) -> InterruptHandle {
+        InterruptHandle(Arc::clone(&self.shared))
+    }
+
+    fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
+        let found = self.members.binary_search_by_key(&auv, |member| member.auv);
+        found.map_err(|_| failed(format_args!("AUV {auv} is in no wake-up group")))
+    }
+
+    /// Takes in the ends that were noticed since the last window.
+    fn bury(&mut self, losses: &mut Vec<Loss>) {
+        for (member, has_ended) in self.members.iter_mut().zip(&self.shared.has_ended) {
+            if member.is_alive && has_ended.load(Ordering::Acquire) {
+                member.lose(PROCESS_ENDED, losses);
+            }
+        }
+    }
+
+    /// Drops from `waiting` those that are done, and those whose process has ended before they were; sleeps until none is left.
+    fn wait(
+        &mut self,
+        mut waiting: Vec<usize>,
+        losses: &mut Vec<Loss>,
+        is_done: impl Fn(&Self, usize) -> bool,
+    ) -> Result<(), FleetError> {
+        let mut since = Instant::now();
+        let mut look_again = LOOK_AGAIN;
+        loop {
+            let bell = self.shared.control.channel_bell();
+            if self.shared.is_interrupted.load(Ordering::Acquire) {
+                return Err(FleetError::Interrupted);
+            }
+            let before = waiting.len();
+            waiting.retain(|&index| {
+                // In this order: what an ended process had done by its end is final.
+                let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
+                if is_done(self, index) {
+                    return false;
+                }
+                if has_ended {
+                    self.members[index].lose(PROCESS_ENDED, losses);
+                    look_again = LOOK_AGAIN_AFTER_LOSS;
+                }
+                !has_ended
+            });
+            if waiting.is_empty() {
+                return Ok(());
+            }
+            if waiting.len() < before {
+                since = Instant::now();
+            } else if since.elapsed() > self.stall_limit {
+                let waiting = waiting.iter().map(|&index| self.members[index].auv).collect();
+                return Err(FleetError::Stalled { waiting, limit_s: self.stall_limit.as_secs() });
+            }
+            let limit = look_again.min(self.stall_limit);
+            self.shared.control.await_channel_bell(bell, limit).map_err(failed)?;
+        }
+    }
+
+    /// Sends the groups' arenas and waits until every live member has dealt with its own.
+    fn run_window(&mut self, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
+        self.window = self.window.wrapping_add(1);
+        let concerned = |member: &Member| member.is_alive && !self.groups[member.group].arena.is_empty();
+        let waiting: Vec<usize> =
+            (0..self.members.len()).filter(|&index| concerned(&self.members[index])).collect();
+        self.shared.control.begin_window(self.window, waiting.len());
+        for (index, group) in self.groups.iter_mut().enumerate() {
+            if group.arena.is_empty() {
+                continue;
+            }
+            group.sequence = group.sequence.wrapping_add(1);
+            let sample = group.arena.finish(group.sequence, self.window);
+            let sample = sample.ok_or_else(|| failed("one window holds more than 4 GiB for one group"))?;
+            iceoryx::send(&group.down, sample).map_err(failed)?;
+            self.shared.control.ring_group(index, group.sequence).map_err(failed)?;
+        }
+        self.wait(waiting, losses, |fleet, index| {
+            let slot = fleet.shared.control.slot(index);
+            slot.acknowledged.load(Ordering::Acquire) == fleet.groups[fleet.members[index].group].sequence
+        })
+    }
+
+    /// Takes the answers out of the services. `due` is (member, ticks), sorted.
+    fn gather(&mut self, due: &[(usize, usize)], answers: &mut Answers) -> Result<(), FleetError> {
+        let mut gathered: Vec<Option<Result<Vec<Acted>, String>>> = due.iter().map(|_| None).collect();
+        let mut has_garbage = vec![false; self.groups.len()];
+        for (index, group) in self.groups.iter().enumerate().filter(|(_, group)| !group.arena.is_empty()) {
+            while let Some(sample) = group.up.receive().map_err(failed)? {
+                let known = read_answer(sample.payload()).and_then(|(auv, sequence, message)| {
+                    let at = due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv).ok()?;
+                    Some((at, sequence, message))
+                });
+                let Some((at, sequence, message)) = known else {
+                    has_garbage[index] = true;
+                    continue;
+                };
+                let member = &self.members[due[at].0];
+                if !member.is_alive {
+                    continue;
+                }
+                if sequence != group.sequence {
+                    let (auv, expected) = (member.auv, group.sequence);
+                    return Err(failed(format_args!(
+                        "AUV {auv} answered sample {sequence} instead of {expected}"
+                    )));
+                }
+                gathered[at] = Some(read_acted(message, due[at].1));
+            }
+        }
+        for (&(index, _), acted) in due.iter().zip(gathered) {
+            let member = &mut self.members[index];
+            if !member.is_alive {
+                continue;
+            }
+            let reason = match acted {
+                Some(Ok(items)) => {
+                    answers.acted.push(Batch { auv: member.auv, items });
+                    continue;
+                }
+                Some(Err(reason)) => reason,
+                None if has_garbage[member.group] => NOT_A_MESSAGE.to_owned(),
+                None => return Err(failed(format_args!("the answer of AUV {} was lost", member.auv))),
+            };
+            self.shared.control.slot(index).dismissed.store(1, Ordering::Release);
+            member.lose(&reason, &mut answers.losses);
+        }
+        Ok(())
+    }
+
+    fn clear(&mut self) {
+        self.groups.iter_mut().for_each(|group| group.arena.clear());
+    }
+}
+
+impl Fleet for SharedMemoryFleet {
+    fn born(&mut self, born: &[Born]) -> Result<Vec<Loss>, FleetError> {
+        let mut losses = Vec::new();
+        self.clear();
+        let newborn = born.iter().map(|born| self.index(born.auv)).collect::<Result<Vec<usize>, _>>()?;
+        for &index in &newborn {
+            self.members[index].is_alive = true;
+        }
+        self.wait(newborn.clone(), &mut losses, |fleet, index| {
+            let pid = fleet.shared.control.slot(index).pid.load(Ordering::Acquire);
+            fleet.members[index].pid.map_or(pid != 0, |attached| attached == pid)
+        })?;
+        for group in &self.groups {
+            // What those who were here before them left behind.
+            while group.up.receive().map_err(failed)?.is_some() {}
+        }
+        for (&index, born) in newborn.iter().zip(born) {
+            let member = &self.members[index];
+            if member.is_alive {
+                let message = codec::encode(&ToAuvRef::Born(born)).map_err(failed)?;
+                self.groups[member.group].arena.push(born.auv, &message);
+            }
+        }
+        self.run_window(&mut losses)?;
+        losses.sort_by_key(|loss| loss.auv);
+        Ok(losses)
+    }
+
+    fn exchange(&mut self, sensed: &[Batch<Sensed>]) -> Result<Answers, FleetError> {
+        let mut answers = Answers::default();
+        self.clear();
+        self.bury(&mut answers.losses);
+        let mut due = Vec::with_capacity(sensed.len());
+        for batch in sensed {
+            let index = self.index(batch.auv)?;
+            let member = &self.members[index];
+            if member.is_alive {
+                let message = codec::encode(&ToAuvRef::Sensed(&batch.items)).map_err(failed)?;
+                self.groups[member.group].arena.push(batch.auv, &message);
+                due.push((index, batch.items.len()));
+            }
+        }
+        self.run_window(&mut answers.losses)?;
+        self.gather(&due, &mut answers)?;
+        answers.losses.sort_by_key(|loss| loss.auv);
+        Ok(answers)
+    }
+
+    fn end(&mut self) {
+        self.shared.control.ended().store(1, Ordering::Release);
+        for (index, group) in self.groups.iter().enumerate() {
+            // The bell must change, or one who is about to sleep on it would not notice. Sleepers also look by themselves.
+            let _woken = self.shared.control.ring_group(index, group.sequence.wrapping_add(1));
+        }
+    }
+}
+
+impl Drop for SharedMemoryFleet {
+    fn drop(&mut self) {
+        self.end();
+    }
+}
+
+fn failed(cause: impl Display) -> FleetError {
+    FleetError::Failed { bus: BUS, cause: cause.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::SharedMemoryLink;
+    use super::super::arena::write_answer;
+    use super::*;
+    use crate::lockstep::{FromAuv, Link};
+
+    /// What a window brings whose only AUV sends these samples.
+    fn window(samples: Vec<Vec<u8>>) -> Result<Answers, FleetError> {
+        let run = RunDir::create(&serde_json::Value::Null).unwrap();
+        let mut fleet = SharedMemoryFleet::create(&run, &[vec![AuvId(4)]]).unwrap();
+        let joins = run.clone();
+        let auv = std::thread::spawn(move || {
+            let mut link = SharedMemoryLink::join(&joins, AuvId(4)).unwrap();
+            link.receive().unwrap();
+            link.answer_with(&samples);
+            link.receive().is_ok_and(|message| message == crate::lockstep::ToAuv::End)
+        });
+        fleet.wait(vec![0], &mut Vec::new(), |fleet, index| {
+            fleet.shared.control.slot(index).pid.load(Ordering::Acquire) != 0
+        })?;
+        fleet.members[0].is_alive = true;
+        let answers = fleet.exchange(&[Batch { auv: AuvId(4), items: Vec::new() }]);
+        drop(fleet);
+        auv.join().unwrap();
+        run.remove().unwrap();
+        answers
+    }
+
+    #[test]
+    fn strange_samples_lose_their_sender_and_missing_ones_are_noticed() {
+        let fine = codec::encode(&FromAuv::Acted(Vec::new())).unwrap();
+        let answer = |auv, sequence, message: &[u8]| vec![write_answer(AuvId(auv), sequence, message)];
+        let acted = vec![Batch { auv: AuvId(4), items: Vec::new() }];
+        assert_eq!(window(answer(4, 1, &fine)).unwrap(), Answers { acted, losses: Vec::new() });
+        let losses = vec![Loss { auv: AuvId(4), reason: NOT_A_MESSAGE.into() }];
+        for strange in [answer(4, 1, b"garbage"), answer(4, 1, b""), answer(9, 1, &fine), vec![vec![0; 3]]] {
+            assert_eq!(window(strange).unwrap(), Answers { acted: Vec::new(), losses: losses.clone() });
+        }
+        assert!(
+            window(Vec::new()).is_err_and(|error| error.to_string().contains("the answer of AUV 4 was lost"))
+        );
+        assert!(
+            window(answer(4, 7, &fine)).is_err_and(|error| error.to_string().contains("answered sample 7"))
+        );
+    }
+
+    #[test]
+    fn an_auv_in_two_groups_is_refused() {
+        let run = RunDir::create(&serde_json::Value::Null).unwrap();
+        let made = SharedMemoryFleet::create(&run, &[vec![AuvId(1), AuvId(2)], vec![AuvId(1)]]);
+        run.remove().unwrap();
+        assert!(made.is_err_and(|error| error.to_string().contains("AUV 1 is in two")));
+    }
+
+    #[test]
+    fn groups_are_small_and_keep_the_order() {
+        let auvs: Vec<AuvId> = (0..70).rev().map(AuvId).collect();
+        let groups = wake_groups(&auvs);
+        assert!(groups.iter().all(|group| group.len() <= GROUP_MAX));
+        assert_eq!(groups.concat(), auvs);
+    }
+}

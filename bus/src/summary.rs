@@ -1,0 +1,175 @@
+//! What a run amounts to: the line that `shoal run --json` prints and the last message of a record.
+
+use serde::{Deserialize, Serialize};
+
+/// Format tag of [`Summary`].
+pub const SUMMARY_FORMAT: &str = "shoal.summary/1";
+
+/// The outcome of one run. Facts of the machine (`bus`, `processes`, wall time, memory) are absent from a record, which must
+/// be the same wherever a run took place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// [`SUMMARY_FORMAT`].
+    pub format: String,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Seed of every random draw.
+    pub seed: u64,
+    /// Transport that carried the run.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub bus: Option<String>,
+    /// Whether scenario and seed determine the digest: not when a process died or the run was interrupted.
+    pub reproducible: bool,
+    /// Number of AUVs.
+    pub auvs: u32,
+    /// Processes that took part: AUVs and channel.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub processes: Option<u32>,
+    /// Simulated seconds.
+    pub sim_s: f64,
+    /// Wall-clock seconds of the simulation, start-up excluded.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub wall_s: Option<f64>,
+    /// Wall-clock seconds from the first process to the first window.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub startup_s: Option<f64>,
+    /// `sim_s / wall_s`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub real_time_factor: Option<f64>,
+    /// Control ticks answered.
+    pub wakes: u64,
+    /// Hash of everything that happened.
+    pub digest: String,
+    /// Whether every enclosure held the truth.
+    pub containment: Containment,
+    /// Width of the reported position boxes, in metres.
+    pub position_width_m: Widths,
+    /// Width of the reported clock intervals, in seconds.
+    pub clock_width_s: Widths,
+    /// What became of the pings.
+    pub pings: Pings,
+    /// How the swarm moved at the end.
+    pub flock: Flock,
+    /// AUVs that did not make it.
+    pub agents: Agents,
+    /// Memory of the processes.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub memory: Option<Memory>,
+}
+
+/// The proof.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Containment {
+    /// Enclosures compared with the truth.
+    pub checks: u64,
+    /// Those that did not hold it.
+    pub violations: u64,
+    /// The first ten of them.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub first: Vec<ViolationLine>,
+}
+
+/// One violation, for people and programs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ViolationLine {
+    /// Index of the AUV.
+    pub auv: u32,
+    /// Its name.
+    pub name: String,
+    /// True time in seconds.
+    pub time_s: f64,
+    /// `report`, `slice`, `ping` or `emptied`.
+    pub enclosure: String,
+    /// Which coordinate.
+    pub coordinate: String,
+    /// How far the truth lies outside, in the coordinate's unit; absent for an empty set.
+    pub margin: Option<f64>,
+    /// Unit of the margin.
+    pub unit: String,
+}
+
+/// Widths of enclosures over all AUVs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Widths {
+    /// Median of each AUV's first report.
+    pub start_median: f64,
+    /// Median of each AUV's last report.
+    pub end_median: f64,
+    /// Widest of the last reports.
+    pub end_max: f64,
+}
+
+/// What became of the pings: `emitted * (auvs - 1) = heard + sum of lost (without late) + in_flight`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Pings {
+    /// Pings that left a modem.
+    pub emitted: u64,
+    /// Receptions.
+    pub heard: u64,
+    /// Receptions that failed, by reason, and pings that never left (`late`).
+    pub lost: Lost,
+    /// Wavefronts that had not yet reached a receiver when the run ended.
+    pub in_flight: u64,
+}
+
+/// Lost pings by reason.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Lost {
+    /// Too far away.
+    pub range: u64,
+    /// Drowned in ambient noise.
+    pub noise: u64,
+    /// Overlapped with other packets.
+    pub collision: u64,
+    /// The receiver was emitting.
+    pub half_duplex: u64,
+    /// Booked for a moment that had passed: never left.
+    pub late: u64,
+    /// The receiver's process had ended.
+    pub dead: u64,
+}
+
+/// How the swarm moved at the end of the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Flock {
+    /// Length of the mean unit velocity: 1 when all move alike, near 0 when each goes its own way.
+    pub polarization: f64,
+    /// Least distance between two bodies over the whole run, in metres, sampled at every knot that ends a window's second;
+    /// absent for a single AUV.
+    pub min_separation_m: Option<f64>,
+    /// Pairs of bodies that came closer than their lengths allow.
+    pub collisions: u64,
+    /// Fraction of all pairs that can hear each other at the end.
+    pub connectivity: f64,
+}
+
+/// AUVs that did not make it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Agents {
+    /// Those whose process ended.
+    pub lost: Vec<LostAgent>,
+    /// Those that were born again.
+    pub restarted: Vec<LostAgent>,
+}
+
+/// One AUV that did not make it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LostAgent {
+    /// Index of the AUV.
+    pub auv: u32,
+    /// Its name.
+    pub name: String,
+    /// True time in seconds.
+    pub time_s: f64,
+    /// How it ended.
+    pub reason: String,
+}
+
+/// Memory of the processes, read at the end of the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Memory {
+    /// Median proportional set size of a sample of AUV processes, in KiB.
+    pub auv_pss_kib_median: u64,
+    /// Resident set of the channel, in KiB.
+    pub channel_rss_kib: u64,
+}

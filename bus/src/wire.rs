@@ -1,0 +1,58 @@
+//! Messages as the transports write and judge them.
+
+use serde::Serialize;
+
+use crate::codec;
+use crate::lockstep::FromAuv;
+use crate::message::{Acted, Born, Sensed};
+
+/// Encodes to the bytes of the [`ToAuv`](crate::lockstep::ToAuv) of the same name.
+#[derive(Serialize)]
+pub(crate) enum ToAuvRef<'a> {
+    Born(&'a Born),
+    Sensed(&'a [Sensed]),
+    #[cfg_attr(not(feature = "zenoh"), allow(dead_code, reason = "shared memory tells the end by a flag"))]
+    End,
+}
+
+/// Why an AUV whose process ended is lost; whoever started it may know more.
+pub(crate) const PROCESS_ENDED: &str = "its process ended";
+
+/// Why an AUV that sent garbage is lost.
+pub(crate) const NOT_A_MESSAGE: &str = "sent bytes that are not a message";
+
+/// Reads the answers to `ticks` ticks, or says why their sender is lost.
+pub(crate) fn read_acted(message: &[u8], ticks: usize) -> Result<Vec<Acted>, String> {
+    match codec::decode(message) {
+        Ok(FromAuv::Acted(acted)) if acted.len() == ticks => Ok(acted),
+        Ok(FromAuv::Acted(acted)) => Err(format!("answered {} of {ticks} ticks", acted.len())),
+        Ok(FromAuv::Hello) | Err(_) => Err(NOT_A_MESSAGE.to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::codec::{decode, encode};
+    use crate::lockstep::ToAuv;
+    use crate::time::LocalTime;
+
+    #[test]
+    fn borrowed_messages_decode_as_owned_ones() {
+        let sensed = vec![Sensed { tick: 3, stamp: LocalTime::from_ns(9), events: Vec::new() }];
+        let bytes = encode(&ToAuvRef::Sensed(&sensed)).unwrap();
+        assert_eq!(bytes, encode(&ToAuv::Sensed(sensed.clone())).unwrap());
+        assert_eq!(decode::<ToAuv>(&bytes).unwrap(), ToAuv::Sensed(sensed));
+        assert_eq!(decode::<ToAuv>(&encode(&ToAuvRef::End).unwrap()).unwrap(), ToAuv::End);
+    }
+
+    #[test]
+    fn what_is_no_answer_is_a_reason_for_loss() {
+        let encode = |message: &FromAuv| encode(message).unwrap();
+        assert_eq!(read_acted(&encode(&FromAuv::Acted(Vec::new())), 0), Ok(Vec::new()));
+        assert_eq!(read_acted(&encode(&FromAuv::Acted(Vec::new())), 2), Err("answered 0 of 2 ticks".into()));
+        for bytes in [&b""[..], b"garbage", &[0xff; 64], &encode(&FromAuv::Hello)] {
+            assert_eq!(read_acted(bytes, 1), Err(NOT_A_MESSAGE.into()));
+        }
+    }
+}
