@@ -1,0 +1,235 @@
+//! From a scenario to the AUVs of a run: where each really is, and what it is told.
+
+use nalgebra::Vector3;
+use pxfm::f_sincos;
+use shoal_bus::message::{
+    AuvId, BodyBounds, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, ModemBounds,
+    Orders, PingSchedule, Sabotage, Wake,
+};
+use shoal_bus::time::{LocalTime, SimTime};
+use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
+
+use crate::body::{Attitude, Body, Vec3};
+use crate::clock::{STAMP_NS, TrueClock};
+use crate::draw::{Draws, Purpose};
+use crate::sensors::{ROUNDING, Sensors};
+use crate::sound::ARRIVAL_TOLERANCE_S;
+
+/// The id of draws that concern no vehicle.
+const WATER: AuvId = AuvId(u32::MAX);
+
+/// What the scenario states within bounds and the truth settles once for the whole run.
+#[derive(Clone, Copy, Debug)]
+pub struct Water {
+    /// True speed of sound in m/s.
+    pub sound_speed_m_s: f64,
+    /// True current in m/s.
+    pub current_m_s: Vec3,
+}
+
+impl Water {
+    /// The water of a run.
+    pub fn new(scenario: &Scenario) -> Self {
+        let mut draws = Draws::new(scenario.seed, Purpose::Water, WATER, scenario.noise);
+        let environment = &scenario.environment;
+        let sound_speed_m_s = environment.sound_speed_m_s + draws.error(environment.sound_speed_error_m_s);
+        let current_m_s = Vector3::from_fn(|axis, _| {
+            environment.current_m_s[axis] + draws.error(environment.current_error_m_s[axis])
+        });
+        Self { sound_speed_m_s, current_m_s }
+    }
+}
+
+/// An AUV at true time zero.
+pub struct Newborn {
+    /// Its true clock.
+    pub clock: TrueClock,
+    /// Its true body.
+    pub body: Body,
+    /// Its sensors.
+    pub sensors: Sensors,
+    /// Errors of its modem's timestamps.
+    pub arrivals: Draws,
+    /// What it is told.
+    pub born: Born,
+}
+
+/// Brings AUV `auv`, the `index`-th of group `group_index`, into the world.
+pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16, index: u32) -> Newborn {
+    let group = &scenario.groups[usize::from(group_index)];
+    let (seed, noise) = (scenario.seed, scenario.noise);
+    let mut start = Draws::new(seed, Purpose::Start, auv, noise);
+    let mut phase = Draws::new(seed, Purpose::Phase, auv, noise);
+
+    let mut clock = TrueClock::new(&group.clock, scenario.knot_ns, seed, auv, noise);
+    let birth = clock.read(SimTime::ZERO);
+    let mut within = |period_ns: i64| 1 + (phase.unit() * (period_ns - 1) as f64) as i64;
+    let first_tick = birth + within(group.control_period_ns);
+    let first_ping = group.modem.ping_period_ns.map(&mut within);
+    let first_fix = birth + group.sensors.gnss.as_ref().map_or(0, |gnss| within(gnss.period_ns));
+
+    let (position_m, attitude) = placed(group, index, &mut start);
+    let prior_position_m = prior_box(group, &position_m, &mut start);
+    let body =
+        Body::new(&group.kind, water.current_m_s, scenario.knot_ns, position_m, attitude, (seed, auv, noise));
+    let ping = group.modem.ping_period_ns.zip(first_ping).map(|(period_ns, drawn_ns)| PingSchedule {
+        first: group.modem.ping_phase_ns.map_or(birth + drawn_ns, LocalTime::from_ns),
+        period_ns,
+    });
+    let offset_s = group.clock.offset_bound_s + 4.0 * STAMP_NS as f64 * 1e-9;
+    let born = Born {
+        auv,
+        group: group_index,
+        name: format!("{}-{index}", group.name),
+        wake: Wake { first_tick, period_ns: group.control_period_ns, reaction_ns: group.reaction_ns },
+        clock: ClockBounds {
+            drift: group.clock.drift_bound,
+            offset_s: Bounds::new(-offset_s, offset_s),
+            stamp_ns: STAMP_NS,
+        },
+        birth,
+        prior_position_m,
+        body: body_bounds(scenario, group),
+        modem: modem_bounds(scenario, group),
+        orders: orders(scenario, group, index, ping),
+    };
+    Newborn {
+        clock,
+        body,
+        sensors: Sensors::new(&group.sensors, seed, auv, noise, first_fix),
+        arrivals: Draws::new(seed, Purpose::Arrival, auv, noise),
+        born,
+    }
+}
+
+/// True position and attitude at the start.
+fn placed(group: &Group, index: u32, draws: &mut Draws) -> (Vec3, Attitude) {
+    let drawn_heading_rad = draws.between(-std::f64::consts::PI, std::f64::consts::PI);
+    let mut heading_rad = group.start.heading_rad.unwrap_or(drawn_heading_rad);
+    let mut pitch_rad = 0.0;
+    let position_m = match &group.start.place {
+        Place::Region(region) => Vector3::from_fn(|axis, _| draws.between(region[axis][0], region[axis][1])),
+        Place::Points(points) => points.get(index as usize).copied().map_or_else(Vec3::zeros, Vec3::from),
+        Place::OnCircle => {
+            let Some((position_m, velocity_m_s)) = circle_start(group, index) else {
+                return (
+                    Vec3::zeros(),
+                    Attitude { heading_rad, pitch_rad, speed_m_s: group.start.speed_m_s },
+                );
+            };
+            heading_rad = pxfm::f_atan2(velocity_m_s.y, velocity_m_s.x);
+            let horizontal_m_s = (velocity_m_s.x * velocity_m_s.x + velocity_m_s.y * velocity_m_s.y).sqrt();
+            pitch_rad = pxfm::f_atan2(velocity_m_s.z, horizontal_m_s);
+            position_m
+        }
+    };
+    (position_m, Attitude { heading_rad, pitch_rad, speed_m_s: group.start.speed_m_s })
+}
+
+/// Position and velocity on the group's circle at time zero.
+fn circle_start(group: &Group, index: u32) -> Option<(Vec3, Vec3)> {
+    let model::Controller::Circle { centre_m, radius_m, rate_rad_s, phase_rad, heave_m, heave_phase_rad } =
+        &group.controller
+    else {
+        return None;
+    };
+    let angle_rad = phase_rad + spread_rad(group, index);
+    let (sin, cos) = f_sincos(angle_rad);
+    let (heave_sin, heave_cos) = f_sincos(angle_rad + heave_phase_rad);
+    let position_m = Vec3::from(*centre_m) + Vec3::new(radius_m * cos, radius_m * sin, heave_m * heave_cos);
+    let velocity_m_s = Vec3::new(-radius_m * sin, radius_m * cos, -heave_m * heave_sin) * *rate_rad_s;
+    Some((position_m, velocity_m_s))
+}
+
+/// Angle by which the `index`-th AUV of a group is ahead of the first on their common circle.
+fn spread_rad(group: &Group, index: u32) -> f64 {
+    2.0 * std::f64::consts::PI * f64::from(index) / f64::from(group.count)
+}
+
+/// A box of drawn width that holds the true position anywhere inside it.
+fn prior_box(group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
+    let [narrowest, widest] = group.start.box_width_m;
+    let width_m = draws.between(narrowest, widest);
+    std::array::from_fn(|axis| {
+        let below_m = 0.5 * width_m + draws.error(0.5 * width_m);
+        let truth_m = position_m[axis];
+        Bounds::new(truth_m - below_m - ROUNDING, truth_m - below_m + width_m + ROUNDING)
+    })
+}
+
+fn body_bounds(scenario: &Scenario, group: &Group) -> BodyBounds {
+    let environment = &scenario.environment;
+    let around = |value: f64, error: f64| Bounds::new(value - error - ROUNDING, value + error + ROUNDING);
+    BodyBounds {
+        speed_m_s: group.kind.speed_max_m_s + ROUNDING,
+        acceleration_m_s2: Body::acceleration_bound_m_s2(&group.kind),
+        current_m_s: std::array::from_fn(|axis| {
+            around(environment.current_m_s[axis], environment.current_error_m_s[axis])
+        }),
+        disturbance_m_s: std::array::from_fn(|axis| around(0.0, group.kind.disturbance_m_s[axis])),
+    }
+}
+
+fn modem_bounds(scenario: &Scenario, group: &Group) -> ModemBounds {
+    let environment = &scenario.environment;
+    let error_m_s = environment.sound_speed_error_m_s + ROUNDING;
+    let farthest_m =
+        scenario.groups.iter().fold(0.0_f64, |farthest, group| farthest.max(group.modem.range_m));
+    ModemBounds {
+        range_m: group.modem.range_m,
+        hearing_range_m: farthest_m + ROUNDING,
+        sound_speed_m_s: Bounds::new(
+            environment.sound_speed_m_s - error_m_s,
+            environment.sound_speed_m_s + error_m_s,
+        ),
+        timestamp_s: group.modem.timestamp_error_s + ARRIVAL_TOLERANCE_S,
+        frame_bytes: group.modem.frame_bytes,
+    }
+}
+
+fn orders(scenario: &Scenario, group: &Group, index: u32, ping: Option<PingSchedule>) -> Orders {
+    let model::Estimator::Tube { horizon_ns } = group.estimator;
+    Orders {
+        estimator: Estimator::Tube { horizon_ns },
+        controller: controller(scenario, group, index),
+        ping,
+        area_m: scenario.environment.area_m.map(|[least, greatest]| Bounds::new(least, greatest)),
+        sabotage: group.sabotage.map(|sabotage| match sabotage {
+            AuvSabotage::HalvedClock => Sabotage::HalvedClock,
+            AuvSabotage::LyingPing => Sabotage::LyingPing,
+            AuvSabotage::EmptySet => Sabotage::EmptySet,
+        }),
+    }
+}
+
+fn controller(scenario: &Scenario, group: &Group, index: u32) -> Controller {
+    match group.controller.clone() {
+        model::Controller::Hold => Controller::Hold,
+        model::Controller::Circle { centre_m, radius_m, rate_rad_s, phase_rad, heave_m, heave_phase_rad } => {
+            let phase_rad = phase_rad + spread_rad(group, index);
+            Controller::Circle { centre_m, radius_m, rate_rad_s, phase_rad, heave_m, heave_phase_rad }
+        }
+        model::Controller::Waypoints { points_m, speed_m_s, reach_m, repeat } => {
+            Controller::Waypoints { points_m, speed_m_s, reach_m, repeat }
+        }
+        model::Controller::Reynolds {
+            speed_m_s,
+            separation,
+            cohesion,
+            alignment,
+            margin_m,
+            forget_ns,
+            trusts,
+        } => {
+            let trusts = trusts.iter().map(|&group| fleetmates(scenario, group)).collect();
+            Controller::Reynolds { speed_m_s, separation, cohesion, alignment, margin_m, forget_ns, trusts }
+        }
+    }
+}
+
+/// The AUVs of a group.
+fn fleetmates(scenario: &Scenario, group: u16) -> Fleetmates {
+    let (before, from) = scenario.groups.split_at(usize::from(group));
+    let first = AuvId(before.iter().map(|group| group.count).sum());
+    Fleetmates { first, count: from.first().map_or(0, |group| group.count) }
+}

@@ -1,0 +1,371 @@
+//! A true body: kinematic, limited in speed, acceleration, turn rate and pitch, pushed by current and state noise.
+//!
+//! The velocity through the water is linear in time between knots (of fixed true times, split only where a setpoint takes
+//! effect), so the position is a parabola there: exact to evaluate, and the same whoever asks, and when.
+
+use std::collections::VecDeque;
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+use pxfm::{f_asin, f_atan2, f_sincos};
+use shoal_bus::message::AuvId;
+use shoal_bus::time::SimTime;
+use shoal_scenario::model::{Kind, Noise};
+
+use crate::draw::{Draws, Purpose};
+
+/// Below this speed, in m/s, a velocity has no direction worth a name and the attitude is kept.
+const STEERAGE_M_S: f64 = 1e-9;
+
+/// Position in metres or velocity in m/s.
+pub type Vec3 = Vector3<f64>;
+
+/// Attitude and speed through the water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attitude {
+    /// Counter-clockwise from east, in rad.
+    pub heading_rad: f64,
+    /// Positive nose up, in rad.
+    pub pitch_rad: f64,
+    /// Along the nose, in m/s.
+    pub speed_m_s: f64,
+}
+
+impl Attitude {
+    /// The velocity through the water that it stands for, in m/s.
+    pub fn velocity_m_s(&self) -> Vec3 {
+        let (sin_heading, cos_heading) = f_sincos(self.heading_rad);
+        let (sin_pitch, cos_pitch) = f_sincos(self.pitch_rad);
+        Vec3::new(cos_pitch * cos_heading, cos_pitch * sin_heading, sin_pitch) * self.speed_m_s
+    }
+
+    /// The attitude of a velocity; without speed, that of `fallback`.
+    fn of(velocity_m_s: &Vec3, fallback: &Attitude) -> Self {
+        let speed_m_s = velocity_m_s.norm();
+        if speed_m_s < STEERAGE_M_S {
+            return Self { speed_m_s, ..*fallback };
+        }
+        Self {
+            heading_rad: f_atan2(velocity_m_s.y, velocity_m_s.x),
+            pitch_rad: f_asin((velocity_m_s.z / speed_m_s).clamp(-1.0, 1.0)),
+            speed_m_s,
+        }
+    }
+}
+
+/// A stretch of true time with linear velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    /// Where it begins.
+    pub start: SimTime,
+    /// Where it ends.
+    pub end: SimTime,
+    /// Position at `start`, in metres.
+    pub position_m: Vec3,
+    /// Velocity over ground at `start`, in m/s.
+    pub ground_velocity_m_s: Vec3,
+    /// Its constant rate of change, in m/s².
+    pub acceleration_m_s2: Vec3,
+    water_velocity_m_s: Vec3,
+    attitude: Attitude,
+}
+
+impl Segment {
+    /// Position `elapsed_s` seconds after the start, in metres.
+    pub fn position_after(&self, elapsed_s: f64) -> Vec3 {
+        self.position_m + (self.ground_velocity_m_s + self.acceleration_m_s2 * (0.5 * elapsed_s)) * elapsed_s
+    }
+
+    fn elapsed_s(&self, t: SimTime) -> f64 {
+        (t - self.start) as f64 * 1e-9
+    }
+
+    fn water_velocity_at(&self, t: SimTime) -> Vec3 {
+        self.water_velocity_m_s + self.acceleration_m_s2 * self.elapsed_s(t)
+    }
+}
+
+/// The whole truth about a body at one moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Pose {
+    /// In metres.
+    pub position_m: Vec3,
+    /// Through the water, in m/s.
+    pub water_velocity_m_s: Vec3,
+    /// Over ground, in m/s.
+    pub ground_velocity_m_s: Vec3,
+    /// Direction and speed of the former.
+    pub attitude: Attitude,
+}
+
+/// One AUV's body.
+pub struct Body {
+    kind: Kind,
+    current_m_s: Vec3,
+    knot_ns: i64,
+    draws: Draws,
+    drawn_knot: i64,
+    disturbance_m_s: Vec3,
+    goal: Attitude,
+    /// Setpoints that are decided but not yet in effect, in order of time.
+    setpoints: VecDeque<(SimTime, Vec3)>,
+    /// What is remembered, the last one reaching beyond what is integrated so far.
+    segments: VecDeque<Segment>,
+    shift: Option<SimTime>,
+}
+
+impl Body {
+    /// A body at rest in its orders: it keeps `attitude` until the first setpoint takes effect.
+    pub fn new(
+        kind: &Kind,
+        current_m_s: Vec3,
+        knot_ns: i64,
+        position_m: Vec3,
+        attitude: Attitude,
+        (seed, auv, noise): (u64, AuvId, Noise),
+    ) -> Self {
+        let mut body = Self {
+            kind: kind.clone(),
+            current_m_s,
+            knot_ns,
+            draws: Draws::new(seed, Purpose::Disturbance, auv, noise),
+            drawn_knot: -1,
+            disturbance_m_s: Vec3::zeros(),
+            goal: attitude,
+            setpoints: VecDeque::new(),
+            segments: VecDeque::new(),
+            shift: None,
+        };
+        body.begin(SimTime::ZERO, position_m, attitude);
+        body
+    }
+
+    /// Bound of the change of its velocity through the water, in m/s²: speeding up, and turning in heading and in pitch, each
+    /// at right angles to the others.
+    pub fn acceleration_bound_m_s2(kind: &Kind) -> f64 {
+        let along = kind.acceleration_max_m_s2;
+        let across = kind.speed_max_m_s * kind.turn_rate_max_rad_s;
+        (along * along + 2.0 * across * across).sqrt() * (1.0 + 1e-9) + 1e-9
+    }
+
+    /// Bound of its speed over ground, in m/s.
+    pub fn ground_speed_bound_m_s(kind: &Kind, current_m_s: &Vec3) -> f64 {
+        kind.speed_max_m_s + current_m_s.norm() + Vec3::from(kind.disturbance_m_s).norm()
+    }
+
+    /// Shifts the truth by a metre east at the first knot from `at` on, unaccounted for: a sabotage.
+    pub fn shift_truth(&mut self, at: SimTime) {
+        self.shift = Some(at);
+    }
+
+    /// Takes a desired velocity through the water that takes effect at `at`, which lies in no window already integrated.
+    pub fn steer(&mut self, at: SimTime, velocity_m_s: Vec3) {
+        let place = self.setpoints.partition_point(|&(earlier, _)| earlier <= at);
+        self.setpoints.insert(place, (at, velocity_m_s));
+        if let Some(last) = self.segments.back_mut() {
+            last.end = last.end.min(at);
+        }
+    }
+
+    /// The time of the last setpoint that is decided but not yet in effect.
+    pub fn last_setpoint(&self) -> Option<SimTime> {
+        self.setpoints.back().map(|&(at, _)| at)
+    }
+
+    /// Integrates until the remembered motion reaches `to`.
+    pub fn integrate(&mut self, to: SimTime) {
+        while let Some(&last) = self.segments.back().filter(|last| last.end < to) {
+            let pose = pose_at(&last, last.end);
+            let mut position_m = pose.position_m;
+            if self.shift.is_some_and(|at| at <= last.end) {
+                self.shift = None;
+                position_m.x += 1.0;
+            }
+            self.begin(last.end, position_m, pose.attitude);
+        }
+    }
+
+    /// Forgets motion that ended before `t`; it will not be asked again.
+    pub fn forget_before(&mut self, t: SimTime) {
+        while self.segments.len() > 1 && self.segments[0].end < t {
+            self.segments.pop_front();
+        }
+    }
+
+    /// The truth at `t`, which is integrated and not forgotten.
+    pub fn at(&self, t: SimTime) -> Pose {
+        pose_at(self.segment_at(t), t)
+    }
+
+    /// The stretches that are remembered, in order.
+    pub fn segments(&self) -> impl Iterator<Item = &Segment> {
+        self.segments.iter()
+    }
+
+    fn segment_at(&self, t: SimTime) -> &Segment {
+        let after = self.segments.partition_point(|segment| segment.start <= t);
+        &self.segments[after.saturating_sub(1)]
+    }
+
+    /// Starts a stretch at `start`, up to the next knot or setpoint.
+    fn begin(&mut self, start: SimTime, position_m: Vec3, attitude: Attitude) {
+        while let Some(&(at, velocity_m_s)) = self.setpoints.front().filter(|(at, _)| *at <= start) {
+            debug_assert_eq!(at, start, "a setpoint took effect inside a stretch");
+            self.goal = self.feasible(&velocity_m_s);
+            self.setpoints.pop_front();
+        }
+        let knot = start.ns().div_euclid(self.knot_ns);
+        while self.drawn_knot < knot {
+            self.drawn_knot += 1;
+            self.disturbance_m_s = Vec3::from(self.kind.disturbance_m_s).map(|bound| self.draws.error(bound));
+        }
+        let planned_end = SimTime::from_ns((knot + 1) * self.knot_ns);
+        let seconds = (planned_end - start) as f64 * 1e-9;
+        let water_velocity_m_s = attitude.velocity_m_s();
+        let next = self.turn_towards_goal(&attitude, seconds).velocity_m_s();
+        let acceleration_m_s2 = (next - water_velocity_m_s) / seconds;
+        let end = self.setpoints.front().map_or(planned_end, |&(at, _)| at.min(planned_end));
+        self.segments.push_back(Segment {
+            start,
+            end,
+            position_m,
+            ground_velocity_m_s: water_velocity_m_s + self.current_m_s + self.disturbance_m_s,
+            acceleration_m_s2,
+            water_velocity_m_s,
+            attitude,
+        });
+    }
+
+    /// The attitude that a desired velocity asks for, within what the kind can hold.
+    fn feasible(&self, velocity_m_s: &Vec3) -> Attitude {
+        let wish = Attitude::of(velocity_m_s, &self.goal);
+        let pitch_max_rad = self.kind.pitch_max_rad;
+        Attitude {
+            heading_rad: wish.heading_rad,
+            pitch_rad: wish.pitch_rad.clamp(-pitch_max_rad, pitch_max_rad),
+            speed_m_s: wish.speed_m_s.min(self.kind.speed_max_m_s),
+        }
+    }
+
+    fn turn_towards_goal(&self, from: &Attitude, seconds: f64) -> Attitude {
+        let turn_rad = self.kind.turn_rate_max_rad_s * seconds;
+        let change_m_s = self.kind.acceleration_max_m_s2 * seconds;
+        let heading_error_rad = wrapped(self.goal.heading_rad - from.heading_rad);
+        let pitch_error_rad = self.goal.pitch_rad - from.pitch_rad;
+        let speed_error_m_s = self.goal.speed_m_s - from.speed_m_s;
+        Attitude {
+            heading_rad: wrapped(from.heading_rad + heading_error_rad.clamp(-turn_rad, turn_rad)),
+            pitch_rad: from.pitch_rad + pitch_error_rad.clamp(-turn_rad, turn_rad),
+            speed_m_s: from.speed_m_s + speed_error_m_s.clamp(-change_m_s, change_m_s),
+        }
+    }
+}
+
+fn pose_at(segment: &Segment, t: SimTime) -> Pose {
+    let elapsed_s = segment.elapsed_s(t);
+    let water_velocity_m_s = segment.water_velocity_at(t);
+    let attitude = if t == segment.start {
+        segment.attitude
+    } else {
+        Attitude::of(&water_velocity_m_s, &segment.attitude)
+    };
+    Pose {
+        position_m: segment.position_after(elapsed_s),
+        water_velocity_m_s,
+        ground_velocity_m_s: segment.ground_velocity_m_s + segment.acceleration_m_s2 * elapsed_s,
+        attitude,
+    }
+}
+
+/// The angle in (-pi, pi], for angles within three turns of it.
+fn wrapped(mut angle_rad: f64) -> f64 {
+    while angle_rad > PI {
+        angle_rad -= 2.0 * PI;
+    }
+    while angle_rad <= -PI {
+        angle_rad += 2.0 * PI;
+    }
+    angle_rad
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kind() -> Kind {
+        Kind {
+            speed_max_m_s: 2.0,
+            acceleration_max_m_s2: 0.5,
+            turn_rate_max_rad_s: 0.6,
+            pitch_max_rad: 0.7,
+            disturbance_m_s: [0.05; 3],
+            length_m: 1.0,
+        }
+    }
+
+    fn body(seed: u64) -> Body {
+        let attitude = Attitude { heading_rad: 0.3, pitch_rad: 0.0, speed_m_s: 1.0 };
+        let stream = (seed, AuvId(0), Noise::Uniform);
+        Body::new(&kind(), Vec3::new(0.1, 0.0, 0.0), 10_000_000, Vec3::zeros(), attitude, stream)
+    }
+
+    fn ns(ms: i64) -> SimTime {
+        SimTime::from_ns(ms * 1_000_000)
+    }
+
+    /// Steers along a fixed plan, integrating in windows of `window_ms`, and returns samples of the motion.
+    fn flown(window_ms: i64) -> Vec<Vec3> {
+        let plan = [
+            (137, [0.0, 1.5, 0.4]),
+            (1_003, [-2.0, -0.1, -3.0]),
+            (2_500, [0.0; 3]),
+            (3_111, [5.0, 5.0, 0.0]),
+        ];
+        let mut body = body(3);
+        let mut seen = Vec::new();
+        let (mut now, mut planned, mut sampled) = (0, 0, 0);
+        while now < 5_000 {
+            now = (now + window_ms).min(5_000);
+            // A setpoint is decided up to 90 ms before it takes effect.
+            while planned < plan.len() && plan[planned].0 < now + 90 {
+                body.steer(ns(plan[planned].0), Vec3::from(plan[planned].1));
+                planned += 1;
+            }
+            body.integrate(ns(now));
+            while sampled < now {
+                seen.push(body.at(ns(sampled)).position_m);
+                sampled += 13;
+            }
+            body.forget_before(ns(now - 50));
+        }
+        seen
+    }
+
+    #[test]
+    fn windows_do_not_change_the_truth() {
+        let reference = flown(90);
+        for window_ms in [7, 10, 33, 50] {
+            assert!(flown(window_ms) == reference, "{window_ms} ms");
+        }
+    }
+
+    #[test]
+    fn motion_keeps_the_limits_of_the_kind() {
+        let bound = Body::acceleration_bound_m_s2(&kind());
+        let mut body = body(9);
+        for (at, wish) in [(10, [0.0, -9.0, 9.0]), (2_000, [-1.0, 0.2, -9.0]), (4_000, [0.0; 3])] {
+            body.steer(ns(at), Vec3::from(wish));
+        }
+        body.integrate(ns(6_000));
+        let mut before = body.at(SimTime::ZERO);
+        for step in 1..60_000 {
+            let now = body.at(SimTime::from_ns(step * 100_000));
+            assert!(now.water_velocity_m_s.norm() <= 2.0 + 1e-12);
+            let change = (now.water_velocity_m_s - before.water_velocity_m_s).norm() / 1e-4;
+            assert!(change <= bound, "{change} at {step}");
+            assert!((now.attitude.velocity_m_s() - now.water_velocity_m_s).norm() < 1e-8);
+            assert!((now.position_m - before.position_m).norm() <= 1e-4 * 2.3);
+            before = now;
+        }
+    }
+}

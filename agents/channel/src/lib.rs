@@ -1,0 +1,34 @@
+//! The water: true bodies, true clocks, sensors, sound and time. A pure state machine.
+//!
+//! [`Channel`](channel::Channel) owns the truth. It advances true time in windows, tells each AUV what it senses, takes what
+//! each decides, delays every ping by the range between emitter and receiver while both move, and compares every enclosure
+//! that an AUV states with the truth. Nothing in here reads a wall clock, opens a file or starts a thread, and no AUV code is
+//! reachable from here.
+//!
+//! | file | idea |
+//! |---|---|
+//! | `channel.rs` | windows, wakes, answers |
+//! | `birth.rs` | from scenario to newborn AUVs |
+//! | `vehicle.rs` | one AUV as the water knows it |
+//! | `body.rs` | true motion |
+//! | `clock.rs` | true clocks |
+//! | `sensors.rs` | measurements inside stated bounds |
+//! | `sound.rs` | wavefronts and arrivals |
+//! | `check.rs` | enclosures against the truth |
+//! | `flock.rs` | separation, alignment, connectivity |
+//! | `draw.rs` | reproducible randomness |
+//! | `digest.rs` | one hash of everything |
+//! | `tally.rs` | what it all amounts to |
+
+pub mod birth;
+pub mod body;
+pub mod channel;
+pub mod check;
+pub mod clock;
+pub mod digest;
+pub mod draw;
+pub mod flock;
+pub mod sensors;
+pub mod sound;
+mod tally;
+pub mod vehicle;

@@ -1,0 +1,209 @@
+//! Sound on its way: wavefronts that leave where the emitter was and arrive where the receiver is by then.
+//!
+//! A ping emitted at a by i reaches j at the b that solves `|p_j(b) - p_i(a)| = c (b - a)`: the position of the emitter at
+//! emission, of the receiver at reception (seed 001, equations 5.2 ii and 5.4). The left side changes more slowly than the right
+//! as long as bodies are slower than sound, so there is one solution, and where it lies can be bracketed at the emission.
+
+use std::sync::Arc;
+
+use shoal_bus::message::AuvId;
+use shoal_bus::ping::Frame;
+use shoal_bus::time::SimTime;
+
+use crate::body::{Body, Segment, Vec3};
+
+/// Bound of the error of an arrival's true time, in seconds: the solver's tolerance and the whole nanosecond it is rounded to.
+pub const ARRIVAL_TOLERANCE_S: f64 = 5e-9;
+
+/// One ping as it leaves.
+#[derive(Debug)]
+pub struct Wavefront {
+    /// Who emitted it.
+    pub from: AuvId,
+    /// How many pings the emitter had emitted before.
+    pub sequence: u32,
+    /// True time of emission.
+    pub emitted: SimTime,
+    /// True position of emission, in metres.
+    pub origin_m: Vec3,
+    /// What it carries.
+    pub frame: Frame,
+    /// Width of the position box that it carries, in metres.
+    pub box_width_m: f64,
+    /// Heard up to this range, in metres.
+    pub range_m: f64,
+}
+
+/// A wavefront on its way to one receiver.
+#[derive(Clone, Debug)]
+pub struct Flight {
+    /// The wavefront.
+    pub wavefront: Arc<Wavefront>,
+    /// The receiver.
+    pub to: AuvId,
+    /// It does not arrive before this.
+    pub earliest: SimTime,
+}
+
+/// An arrival.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival {
+    /// True time, rounded up to a whole nanosecond.
+    pub at: SimTime,
+    /// Distance between emission and reception, in metres.
+    pub range_m: f64,
+    /// Travel time in seconds.
+    pub travel_s: f64,
+}
+
+impl Wavefront {
+    /// The flight to a receiver now (at the emission) `distance_m` away that moves at most at `speed_m_s`; `None` when it
+    /// stays out of range whatever it does.
+    pub fn towards(
+        self: &Arc<Self>,
+        to: AuvId,
+        distance_m: f64,
+        speed_m_s: f64,
+        sound_speed_m_s: f64,
+    ) -> Option<Flight> {
+        if distance_m > reach_m(self.range_m, speed_m_s, sound_speed_m_s) {
+            return None;
+        }
+        let travel_s = distance_m / (sound_speed_m_s + speed_m_s);
+        let earliest = self.emitted + (travel_s * 1e9) as i64 + -1;
+        Some(Flight { wavefront: Arc::clone(self), to, earliest: earliest.max(self.emitted) })
+    }
+}
+
+/// How far from the emission a receiver may be at that moment and still come into range in time, in metres.
+pub fn reach_m(range_m: f64, speed_m_s: f64, sound_speed_m_s: f64) -> f64 {
+    range_m * (1.0 + speed_m_s / sound_speed_m_s) * (1.0 + 1e-9)
+}
+
+impl Flight {
+    /// When and where it arrives, if that is before `horizon`, up to which the receiver's motion is settled.
+    pub fn arrival(&self, receiver: &Body, sound_speed_m_s: f64, horizon: SimTime) -> Option<Arrival> {
+        for segment in receiver.segments().filter(|segment| segment.end > self.earliest) {
+            if segment.start >= horizon {
+                return None;
+            }
+            let elapsed_s = self.solve(segment, sound_speed_m_s);
+            let at = segment.start + (elapsed_s * 1e9).ceil() as i64;
+            if at > segment.end {
+                continue;
+            }
+            let range_m = (segment.position_after(elapsed_s) - self.wavefront.origin_m).norm();
+            return (at < horizon).then_some(Arrival { at, range_m, travel_s: range_m / sound_speed_m_s });
+        }
+        None
+    }
+
+    /// Seconds after the start of `segment` at which sound and receiver meet, were the segment endless; never negative.
+    fn solve(&self, segment: &Segment, sound_speed_m_s: f64) -> f64 {
+        let sound_ahead_s = (segment.start - self.wavefront.emitted) as f64 * 1e-9;
+        let mut elapsed_s = 0.0;
+        // Newton's steps shrink quadratically, by (body speed / sound speed)² or better: a handful reaches the last bits.
+        for _ in 0..60 {
+            let ray_m = segment.position_after(elapsed_s) - self.wavefront.origin_m;
+            let distance_m = ray_m.norm();
+            let velocity_m_s = segment.ground_velocity_m_s + segment.acceleration_m_s2 * elapsed_s;
+            let closing_m_s = if distance_m > 0.0 { ray_m.dot(&velocity_m_s) / distance_m } else { 0.0 };
+            let step_s = (distance_m - sound_speed_m_s * (elapsed_s + sound_ahead_s))
+                / (sound_speed_m_s - closing_m_s);
+            elapsed_s += step_s;
+            if step_s.abs() < 1e-12 {
+                break;
+            }
+        }
+        elapsed_s.max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shoal_scenario::model::{Kind, Noise};
+
+    use super::*;
+    use crate::body::Attitude;
+
+    fn body(seed: u64, position_m: Vec3) -> Body {
+        let kind = Kind {
+            speed_max_m_s: 12.0,
+            acceleration_max_m_s2: 4.0,
+            turn_rate_max_rad_s: 1.5,
+            pitch_max_rad: 1.0,
+            disturbance_m_s: [1.0; 3],
+            length_m: 1.0,
+        };
+        let attitude = Attitude { heading_rad: seed as f64, pitch_rad: 0.1, speed_m_s: 11.0 };
+        Body::new(&kind, Vec3::zeros(), 10_000_000, position_m, attitude, (seed, AuvId(0), Noise::Uniform))
+    }
+
+    fn wavefront(emitted_ns: i64) -> Arc<Wavefront> {
+        Arc::new(Wavefront {
+            from: AuvId(1),
+            sequence: 0,
+            emitted: SimTime::from_ns(emitted_ns),
+            origin_m: Vec3::new(3.0, -2.0, -1.0),
+            frame: Frame::default(),
+            box_width_m: 0.0,
+            range_m: 1e4,
+        })
+    }
+
+    #[test]
+    fn the_moving_receiver_is_met_as_bisection_finds_it() {
+        let sound_speed_m_s = 100.0;
+        for seed in 0..200u64 {
+            let place = Vec3::new(seed as f64, 40.0 - seed as f64 * 0.7, -(seed as f64) * 0.2);
+            let mut body = body(seed, place);
+            body.steer(SimTime::from_ns(123_456_789), Vec3::new(-9.0, 8.0, 2.0));
+            let horizon = SimTime::from_ns(6_000_000_000);
+            body.integrate(horizon);
+            let wavefront = wavefront(777_777_777);
+            let distance_m = (body.at(wavefront.emitted).position_m - wavefront.origin_m).norm();
+            let flight = wavefront.towards(AuvId(0), distance_m, 14.0, sound_speed_m_s).unwrap();
+            let arrival = flight.arrival(&body, sound_speed_m_s, horizon).unwrap();
+
+            let ahead_m = |t: SimTime| {
+                let distance_m = (body.at(t).position_m - wavefront.origin_m).norm();
+                distance_m - sound_speed_m_s * ((t - wavefront.emitted) as f64 * 1e-9)
+            };
+            let (mut before, mut after) = (wavefront.emitted, horizon);
+            while after - before > 1 {
+                let middle = before + (after - before) / 2;
+                if ahead_m(middle) > 0.0 { before = middle } else { after = middle }
+            }
+            assert!((arrival.at - after).abs() <= 1, "{} {}", arrival.at, after);
+            assert!(arrival.at >= flight.earliest);
+        }
+    }
+
+    #[test]
+    fn the_horizon_hides_an_arrival_but_never_moves_it() {
+        let mut settled = body(5, Vec3::new(60.0, 0.0, 0.0));
+        settled.integrate(SimTime::from_ns(2_000_000_000));
+        let flight = wavefront(0).towards(AuvId(0), 57.1, 14.0, 100.0).unwrap();
+        let whole = flight.arrival(&settled, 100.0, SimTime::from_ns(2_000_000_000)).unwrap();
+        let mut growing = body(5, Vec3::new(60.0, 0.0, 0.0));
+        let mut seen = None;
+        for window in 1..=400 {
+            let horizon = SimTime::from_ns(window * 5_000_000);
+            growing.integrate(horizon);
+            if seen.is_none() {
+                seen = flight.arrival(&growing, 100.0, horizon);
+            }
+            growing.forget_before(horizon);
+        }
+        assert_eq!(seen, Some(whole));
+    }
+
+    #[test]
+    fn zero_range_is_heard_at_once() {
+        let mut body = body(2, Vec3::new(3.0, -2.0, -1.0));
+        body.integrate(SimTime::from_ns(100_000_000));
+        let flight = wavefront(0).towards(AuvId(0), 0.0, 14.0, 100.0).unwrap();
+        let arrival = flight.arrival(&body, 100.0, SimTime::from_ns(50_000_000)).unwrap();
+        assert_eq!((arrival.at, arrival.range_m), (SimTime::ZERO, 0.0));
+    }
+}

@@ -1,0 +1,178 @@
+//! Keeps count: what happened in the window, and what the whole run amounts to.
+
+use shoal_bus::chronicle::{Entry, Violation, What};
+use shoal_bus::message::AuvId;
+use shoal_bus::summary::{
+    Agents, Containment, Flock, LostAgent, Pings, SUMMARY_FORMAT, Summary, ViolationLine, Widths,
+};
+use shoal_bus::time::SimTime;
+use shoal_bus::traffic::{Fate, LossReason, Traffic};
+use shoal_scenario::model::Scenario;
+
+/// So many violations are told one by one in a summary.
+const VIOLATIONS_TOLD: usize = 10;
+
+/// Counts of one run.
+pub struct Tally {
+    /// What happened since it was last taken, in no particular order.
+    pub window: Vec<Entry>,
+    wakes: u64,
+    checks: u64,
+    violations: u64,
+    first_violations: Vec<(SimTime, AuvId, Violation)>,
+    widths: Vec<Option<ReportWidths>>,
+    pings: Pings,
+    lost: Vec<LostAgent>,
+}
+
+/// First and last widths that an AUV reported.
+#[derive(Clone, Copy)]
+struct ReportWidths {
+    first: [f64; 2],
+    last: [f64; 2],
+}
+
+impl Tally {
+    /// Nothing counted yet, for so many AUVs.
+    pub fn new(auvs: usize) -> Self {
+        Self {
+            window: Vec::new(),
+            wakes: 0,
+            checks: 0,
+            violations: 0,
+            first_violations: Vec::new(),
+            widths: vec![None; auvs],
+            pings: Pings::default(),
+            lost: Vec::new(),
+        }
+    }
+
+    /// Something happened.
+    pub fn happened(&mut self, at: SimTime, auv: AuvId, what: What) {
+        self.wakes += u64::from(matches!(what, What::Acted(_)));
+        self.window.push(Entry { at, auv, what });
+    }
+
+    /// A ping met its fate; `auv` is whose entry it is.
+    pub fn traffic(&mut self, auv: AuvId, traffic: Traffic) {
+        match traffic.fate {
+            Fate::Emitted { beyond_range, .. } => {
+                self.pings.emitted += 1;
+                self.pings.lost.range += u64::from(beyond_range);
+            }
+            Fate::Heard { .. } => self.pings.heard += 1,
+            Fate::Lost { reason, .. } => {
+                let lost = &mut self.pings.lost;
+                *match reason {
+                    LossReason::Range => &mut lost.range,
+                    LossReason::Noise => &mut lost.noise,
+                    LossReason::Collision => &mut lost.collision,
+                    LossReason::HalfDuplex => &mut lost.half_duplex,
+                    LossReason::Late => &mut lost.late,
+                    LossReason::Dead => &mut lost.dead,
+                } += 1;
+            }
+        }
+        self.happened(traffic.at, auv, What::Traffic(traffic));
+    }
+
+    /// An enclosure was checked.
+    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>) {
+        self.checks += 1;
+        let Some(violation) = violation else { return };
+        self.violations += 1;
+        self.first_violations.push((at, auv, violation));
+        self.first_violations.sort_by_key(|&(at, auv, _)| (at, auv));
+        self.first_violations.truncate(VIOLATIONS_TOLD);
+        self.happened(at, auv, What::Violation(violation));
+    }
+
+    /// An AUV reported enclosures of these widths, in metres and seconds.
+    pub fn reported(&mut self, auv: AuvId, position_m: f64, clock_s: f64) {
+        // An unbounded report counts as the widest number there is: summaries are JSON, which has no infinity.
+        let now = [position_m, clock_s].map(|width| if width.is_finite() { width } else { f64::MAX });
+        let slot = &mut self.widths[auv.0 as usize];
+        slot.get_or_insert(ReportWidths { first: now, last: now }).last = now;
+    }
+
+    /// An AUV is gone.
+    pub fn lost(&mut self, at: SimTime, auv: AuvId, name: &str, reason: &str) {
+        let (name, reason) = (name.to_owned(), reason.to_owned());
+        self.lost.push(LostAgent { auv: auv.0, name, time_s: at.as_s(), reason: reason.clone() });
+        self.lost.sort_by_key(|lost| lost.auv);
+        self.happened(at, auv, What::Ended(reason));
+    }
+
+    /// What the run amounts to at `now`.
+    pub fn summary(
+        &self,
+        scenario: &Scenario,
+        now: SimTime,
+        digest: String,
+        flock: Flock,
+        in_flight: u64,
+    ) -> Summary {
+        let widths = |which: usize| {
+            let pick = |of: fn(&ReportWidths) -> [f64; 2]| -> Vec<f64> {
+                self.widths.iter().flatten().map(|widths| of(widths)[which]).collect()
+            };
+            let (first, last) = (pick(|widths| widths.first), pick(|widths| widths.last));
+            let end_max = last.iter().fold(0.0_f64, |a, &b| a.max(b));
+            Widths { start_median: median(first), end_median: median(last), end_max }
+        };
+        Summary {
+            format: SUMMARY_FORMAT.to_owned(),
+            scenario: scenario.name.clone(),
+            seed: scenario.seed,
+            bus: None,
+            reproducible: self.lost.is_empty() && now.ns() >= scenario.duration_ns,
+            auvs: self.widths.len() as u32,
+            processes: None,
+            sim_s: now.as_s(),
+            wall_s: None,
+            startup_s: None,
+            real_time_factor: None,
+            wakes: self.wakes,
+            digest,
+            containment: self.containment(scenario),
+            position_width_m: widths(0),
+            clock_width_s: widths(1),
+            pings: Pings { in_flight, ..self.pings },
+            flock,
+            agents: Agents { lost: self.lost.clone(), restarted: Vec::new() },
+            memory: None,
+        }
+    }
+
+    fn containment(&self, scenario: &Scenario) -> Containment {
+        let line = |&(at, auv, violation): &(SimTime, AuvId, Violation)| ViolationLine {
+            auv: auv.0,
+            name: name_of(scenario, auv),
+            time_s: at.as_s(),
+            enclosure: violation.enclosure.name().to_owned(),
+            coordinate: violation.coordinate.name().to_owned(),
+            margin: violation.margin.is_finite().then_some(violation.margin),
+            unit: violation.coordinate.unit().to_owned(),
+        };
+        let first = self.first_violations.iter().map(line).collect();
+        Containment { checks: self.checks, violations: self.violations, first }
+    }
+}
+
+/// `GROUP-k` for the k-th AUV of its group.
+fn name_of(scenario: &Scenario, auv: AuvId) -> String {
+    let mut index = auv.0;
+    for group in &scenario.groups {
+        if index < group.count {
+            return format!("{}-{index}", group.name);
+        }
+        index -= group.count;
+    }
+    format!("auv-{auv}")
+}
+
+/// The upper median; zero of nothing.
+fn median(mut of: Vec<f64>) -> f64 {
+    of.sort_by(f64::total_cmp);
+    of.get(of.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,186 @@
+//! One AUV as the water knows it: body, clock, sensors, and the messages that wait for it.
+
+use std::collections::VecDeque;
+
+use shoal_bus::message::{Born, Bounds, Event, PlannedPing, Sense, Sensed};
+use shoal_bus::ping::Frame;
+use shoal_bus::time::{LocalTime, SimTime};
+
+use crate::birth::Newborn;
+use crate::body::{Body, Pose, Vec3};
+use crate::clock::TrueClock;
+use crate::draw::Draws;
+use crate::sensors::Sensors;
+
+/// One AUV, true through and through.
+pub struct Vehicle {
+    /// What it was told at birth.
+    pub born: Born,
+    /// True body.
+    pub body: Body,
+    /// True clock.
+    pub clock: TrueClock,
+    /// False once its process has ended.
+    pub alive: bool,
+    /// Bound of its speed over ground, in m/s.
+    pub ground_speed_m_s: f64,
+    /// Length of its body in metres.
+    pub length_m: f64,
+    /// Pings emitted so far.
+    pub emitted: u32,
+    sensors: Sensors,
+    timestamps: Draws,
+    timestamp_error_s: f64,
+    next_tick: u64,
+    next_tick_at: SimTime,
+    last_tick_at: SimTime,
+    heard: Vec<HeardPing>,
+    planned: VecDeque<(SimTime, Frame)>,
+    answered: VecDeque<Tick>,
+}
+
+/// A ping that was decoded but not yet handed over.
+struct HeardPing {
+    stamp: LocalTime,
+    at: SimTime,
+    from: u32,
+    frame: Frame,
+}
+
+/// A tick that waits for its answer, with the truth to check it against.
+#[derive(Clone, Copy, Debug)]
+pub struct Tick {
+    /// Its index.
+    pub index: u64,
+    /// Its local time.
+    pub stamp: LocalTime,
+    /// Its true time.
+    pub at: SimTime,
+    /// The truth at it.
+    pub pose: Pose,
+    /// A moment between the tick before (or birth) and this one.
+    pub between: SimTime,
+    /// The true position at that moment, in metres.
+    pub between_position_m: Vec3,
+}
+
+impl Vehicle {
+    /// A newborn in the water.
+    pub fn new(newborn: Newborn, ground_speed_m_s: f64, length_m: f64, timestamp_error_s: f64) -> Self {
+        let Newborn { mut clock, body, sensors, arrivals, born } = newborn;
+        let next_tick_at = clock.reaches(born.wake.first_tick);
+        Self {
+            born,
+            body,
+            clock,
+            alive: true,
+            ground_speed_m_s,
+            length_m,
+            emitted: 0,
+            sensors,
+            timestamps: arrivals,
+            timestamp_error_s,
+            next_tick: 0,
+            next_tick_at,
+            last_tick_at: SimTime::ZERO,
+            heard: Vec::new(),
+            planned: VecDeque::new(),
+            answered: VecDeque::new(),
+        }
+    }
+
+    /// True time of its next tick.
+    pub fn next_tick_at(&self) -> SimTime {
+        self.next_tick_at
+    }
+
+    /// Takes a decoded ping that arrived at true time `at`.
+    pub fn hear(&mut self, at: SimTime, from: u32, frame: &Frame) {
+        let error_ns = (self.timestamps.error(self.timestamp_error_s) * 1e9) as i64;
+        let stamp = self.clock.read(at) + error_ns;
+        self.heard.push(HeardPing { stamp, at, from, frame: frame.clone() });
+    }
+
+    /// Books a ping; `at` lies in no window already advanced.
+    pub fn plan(&mut self, ping: PlannedPing) {
+        let at = self.clock.reaches(ping.at);
+        let place = self.planned.partition_point(|&(earlier, _)| earlier <= at);
+        self.planned.insert(place, (at, ping.frame));
+    }
+
+    /// The next booked ping that leaves before `horizon`.
+    pub fn next_emission(&mut self, horizon: SimTime) -> Option<(SimTime, Frame)> {
+        if self.planned.front()?.0 >= horizon { None } else { self.planned.pop_front() }
+    }
+
+    /// What it senses at its next tick, which comes before the horizon that its body is integrated to.
+    pub fn sense(&mut self) -> (Tick, Sensed) {
+        let wake = self.born.wake;
+        let stamp = wake.first_tick + self.next_tick as i64 * wake.period_ns;
+        let at = self.next_tick_at;
+        let pose = self.body.at(at);
+        let between = self.last_tick_at + (at - self.last_tick_at) / 2;
+        let between_position_m = self.body.at(between).position_m;
+
+        let mut events = Vec::new();
+        self.sensors.sense(stamp, at, &pose, &mut events);
+        self.hand_over_heard(stamp, at, &mut events);
+        events.sort_by_key(|event| (event.stamp, kind_rank(&event.sense)));
+
+        let tick = Tick { index: self.next_tick, stamp, at, pose, between, between_position_m };
+        self.answered.push_back(tick);
+        self.next_tick += 1;
+        self.last_tick_at = at;
+        self.next_tick_at = self.clock.reaches(stamp + wake.period_ns);
+        (tick, Sensed { tick: tick.index, stamp, events })
+    }
+
+    /// Pings heard up to this tick, in the order (stamp, emitter).
+    fn hand_over_heard(&mut self, stamp: LocalTime, at: SimTime, events: &mut Vec<Event>) {
+        let (mut ready, waiting): (Vec<_>, Vec<_>) =
+            self.heard.drain(..).partition(|ping| ping.stamp <= stamp && ping.at <= at);
+        self.heard = waiting;
+        ready.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
+        events.extend(
+            ready
+                .into_iter()
+                .map(|ping| Event { stamp: ping.stamp, sense: Sense::Heard { frame: ping.frame } }),
+        );
+    }
+
+    /// The oldest tick that waits for its answer.
+    pub fn answer_tick(&mut self) -> Option<Tick> {
+        self.answered.pop_front()
+    }
+
+    /// Ends its mind at `at`: nothing more is sensed or answered, and the body drifts once it has done what was decided.
+    pub fn end(&mut self, at: SimTime) {
+        self.alive = false;
+        self.heard.clear();
+        self.answered.clear();
+        let rest_from = self.body.last_setpoint().map_or(at, |last| last.max(at));
+        self.body.steer(rest_from, Vec3::zeros());
+    }
+
+    /// Forgets the past that no later window of true time from `now` on asks for.
+    pub fn forget_before(&mut self, now: SimTime) {
+        let needed = if self.alive { self.last_tick_at.min(now) } else { now };
+        self.body.forget_before(needed);
+        self.clock.forget_before(needed);
+    }
+
+    /// The prior clock offset that it was told, in seconds.
+    pub fn prior_offset_s(&self) -> Bounds {
+        self.born.clock.offset_s
+    }
+}
+
+/// Order of simultaneous events of different kinds.
+fn kind_rank(sense: &Sense) -> u8 {
+    match sense {
+        Sense::Inertial { .. } => 0,
+        Sense::Depth { .. } => 1,
+        Sense::Gnss { .. } => 2,
+        Sense::Heard { .. } => 3,
+    }
+}
