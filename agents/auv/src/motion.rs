@@ -1,0 +1,215 @@
+//! How far an AUV can have moved: velocities between two looks at the log, integrated without losing any.
+//!
+//! The velocity through the water changes by at most `A` per true second. Known at the ends of a stretch of local time, it is
+//! caught in between under two sloping lines from either end; the integral of that roof is exact and much smaller than that of
+//! the highest velocity.
+
+use shoal_bus::message::{BodyBounds, ClockBounds};
+use shoal_interval::{Interval, IntervalBox};
+
+use crate::bounds::interval_box;
+
+/// What is certain about the own motion and clock.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    speed_m_s: Interval,
+    acceleration_m_s2: f64,
+    drift_m_s: IntervalBox<3>,
+    /// `dt/ds - 1`: true seconds gained per local second.
+    gain: Interval,
+    /// Bound of `dt/ds`.
+    fastest: f64,
+    stamp_s: f64,
+}
+
+/// A stretch of local time with what is known of the velocity through the water at its ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// Velocity at its beginning, in m/s.
+    pub before_m_s: IntervalBox<3>,
+    /// Velocity at its end, in m/s; the entire space when nothing is known yet.
+    pub after_m_s: IntervalBox<3>,
+    /// Local seconds from beginning to end.
+    pub length_s: f64,
+}
+
+/// What happened during a part of a stretch.
+#[derive(Clone, Copy, Debug)]
+pub struct Moved {
+    /// Displacement from the part's beginning to its end, in metres.
+    pub displacement_m: IntervalBox<3>,
+    /// Displacement between any two moments of the part, the earlier first, in metres.
+    pub within_m: IntervalBox<3>,
+    /// Change of true minus local time from the part's beginning to its end, in seconds.
+    pub offset_gain_s: Interval,
+    /// The same between any two moments of it, in seconds.
+    pub offset_within_s: Interval,
+}
+
+impl Motion {
+    /// The motion that these bounds allow.
+    pub fn new(body: &BodyBounds, clock: &ClockBounds) -> Self {
+        let one = Interval::ONE;
+        let drift = Interval::centred(0.0, clock.drift);
+        // 1 / (1 + n) - 1 for |n| <= drift.
+        let gain = one / (one + drift) - one;
+        Self {
+            speed_m_s: Interval::centred(0.0, body.speed_m_s),
+            acceleration_m_s2: body.acceleration_m_s2,
+            drift_m_s: interval_box(&body.current_m_s) + interval_box(&body.disturbance_m_s),
+            gain,
+            fastest: (one + gain).upper(),
+            stamp_s: clock.stamp_ns as f64 * 1e-9,
+        }
+    }
+
+    /// Any velocity through the water that the body can have, in m/s.
+    pub fn any_velocity(&self) -> IntervalBox<3> {
+        IntervalBox::from([self.speed_m_s; 3])
+    }
+
+    /// The velocities through the water that are possible `elapsed_s` local seconds from a moment with velocity `known_m_s`.
+    pub fn velocity_after(&self, known_m_s: &IntervalBox<3>, elapsed_s: f64) -> IntervalBox<3> {
+        known_m_s.inflate(self.slope() * self.longest(elapsed_s)).intersection(&self.any_velocity())
+    }
+
+    /// Velocity over ground, in m/s.
+    pub fn over_ground(&self, velocity_m_s: &IntervalBox<3>) -> IntervalBox<3> {
+        *velocity_m_s + self.drift_m_s
+    }
+
+    /// Any displacement over ground within `elapsed_s` local seconds, forward or backward, in metres.
+    pub fn anywhere_within(&self, elapsed_s: f64) -> IntervalBox<3> {
+        let ground_m_s = self.over_ground(&self.any_velocity());
+        let either_way = Interval::centred(0.0, self.longest(elapsed_s) * self.fastest);
+        IntervalBox::from(ground_m_s.sides().map(|side| side * either_way))
+    }
+
+    /// Change of true minus local time within `elapsed_s` local seconds, in seconds.
+    pub fn offset_gain(&self, elapsed_s: f64) -> Interval {
+        self.gain * self.around(elapsed_s)
+    }
+
+    /// What can have happened from `from_s` to `to_s` local seconds after the beginning of `stretch`.
+    pub fn over(&self, stretch: &Stretch, from_s: f64, to_s: f64) -> Moved {
+        let elapsed_s = self.around(to_s - from_s);
+        let so_far_s = Interval::ZERO.hull(elapsed_s);
+        let mut displacement_m = [Interval::ZERO; 3];
+        let mut within_m = [Interval::ZERO; 3];
+        for axis in 0..3 {
+            let envelope = Envelope::new(self, stretch, axis);
+            let (mean, reached) = envelope.between(from_s, to_s);
+            let drift = self.drift_m_s[axis];
+            // dt = (1 + gain) ds: the mean for the 1, every velocity reached for the gain.
+            displacement_m[axis] =
+                (mean + reached * self.gain + drift * (Interval::ONE + self.gain)) * elapsed_s;
+            within_m[axis] = (reached + drift) * (Interval::ONE + self.gain) * so_far_s;
+        }
+        Moved {
+            displacement_m: IntervalBox::from(displacement_m),
+            within_m: IntervalBox::from(within_m),
+            offset_gain_s: self.gain * elapsed_s,
+            offset_within_s: self.gain * so_far_s,
+        }
+    }
+
+    /// Change of velocity per local second, at most, in m/s².
+    fn slope(&self) -> f64 {
+        (self.acceleration_m_s2 * self.fastest).next_up()
+    }
+
+    /// Local seconds between two stamped moments that are `elapsed_s` apart by their stamps.
+    fn around(&self, elapsed_s: f64) -> Interval {
+        Interval::centred(elapsed_s, 2.0 * self.stamp_s + elapsed_s.abs() * f64::EPSILON)
+    }
+
+    fn longest(&self, elapsed_s: f64) -> f64 {
+        self.around(elapsed_s.abs()).upper()
+    }
+}
+
+/// Bounds of one component of the velocity over a stretch: the lesser of two lines above, the greater of two below.
+struct Envelope {
+    before: Interval,
+    after: Interval,
+    limit: Interval,
+    slope: f64,
+    slack_s: f64,
+    length_s: f64,
+}
+
+impl Envelope {
+    fn new(motion: &Motion, stretch: &Stretch, axis: usize) -> Self {
+        Self {
+            before: stretch.before_m_s[axis],
+            after: stretch.after_m_s[axis],
+            limit: motion.speed_m_s,
+            slope: motion.slope(),
+            slack_s: 2.0 * motion.stamp_s,
+            length_s: stretch.length_s,
+        }
+    }
+
+    /// The mean velocity, and all velocities reached, between two moments given in local seconds from the beginning.
+    fn between(&self, from_s: f64, to_s: f64) -> (Interval, Interval) {
+        let upper = Roof {
+            rising: self.before.upper() + self.slope * self.slack_s,
+            falling: self.after.upper() + self.slope * (self.length_s + self.slack_s),
+            slope: self.slope,
+            limit: self.limit.upper(),
+        };
+        let lower = Roof {
+            rising: -self.before.lower() + self.slope * self.slack_s,
+            falling: -self.after.lower() + self.slope * (self.length_s + self.slack_s),
+            slope: self.slope,
+            limit: -self.limit.lower(),
+        };
+        let (upper_mean, upper_most) = upper.mean_and_most(from_s, to_s);
+        let (lower_mean, lower_most) = lower.mean_and_most(from_s, to_s);
+        (Interval::spanning(-lower_mean, upper_mean), Interval::spanning(-lower_most, upper_most))
+    }
+}
+
+/// `min(rising + slope x, falling - slope x, limit)`: how large a velocity component can be x seconds into a stretch.
+struct Roof {
+    rising: f64,
+    falling: f64,
+    slope: f64,
+    limit: f64,
+}
+
+impl Roof {
+    /// Upper bounds of the mean and of the maximum over `[from, to]`.
+    fn mean_and_most(&self, from: f64, to: f64) -> (f64, f64) {
+        // The roof is concave: where the lines cross it is highest, and a tangent never lies below it.
+        let ridge = ((self.falling - self.rising) / (2.0 * self.slope)).clamp(from, to);
+        let most = self.rising + self.slope * ridge;
+        let most =
+            most.min(self.falling - self.slope * ridge).max(self.at(from)).max(self.at(to)).min(self.limit);
+        let (left, right) = (ridge - from, to - ridge);
+        let length = to - from;
+        let mean = if length > 0.0 {
+            // Mid-points of linear pieces are exact means; a limit inside a piece only lowers the roof.
+            let rising_mean = (self.rising + self.slope * (from + 0.5 * left)).min(self.limit);
+            let falling_mean = (self.falling - self.slope * (to - 0.5 * right)).min(self.limit);
+            match (left > 0.0, right > 0.0) {
+                (true, true) => (rising_mean * left + falling_mean * right) / length,
+                (true, false) => rising_mean,
+                _ => falling_mean,
+            }
+        } else {
+            most
+        };
+        (rounded_up(mean), rounded_up(most))
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        (self.rising + self.slope * x).min(self.falling - self.slope * x)
+    }
+}
+
+/// More than the dozen roundings above can have taken away: each is below 2⁻⁵³ of quantities that no speed limit exceeds
+/// a thousandfold.
+fn rounded_up(velocity_m_s: f64) -> f64 {
+    velocity_m_s + 1e-11 * (1.0 + velocity_m_s.abs())
+}

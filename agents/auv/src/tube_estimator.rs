@@ -1,0 +1,170 @@
+//! The state tube of an AUV, online: forward from measurement to measurement, in its own time.
+//!
+//! `dt/ds in [1/(1+d), 1/(1-d)]` and `dp/ds in (R(heading, pitch) [v] + [current] + [n]) dt/ds` carry the enclosure on;
+//! fixes, depths and pings contract it where they are measured (seed 001, section 5.3). Every measurement happens at a known local
+//! time, so no clock is ever inverted.
+
+use shoal_bus::message::{Born, Culprit, Emptied, Estimator as Orders, Event, Measured, Sense, Sensed};
+use shoal_bus::ping::Ping;
+use shoal_bus::time::LocalTime;
+use shoal_interval::{Interval, IntervalBox};
+
+use crate::bounds::{interval, interval_box, measured};
+use crate::estimator::{Estimate, Estimator, Prediction};
+use crate::history::History;
+use crate::motion::{Motion, Stretch};
+use crate::state::{Contradiction, Moment, Sound, State};
+
+/// Encloses the state by a tube.
+pub struct TubeEstimator {
+    motion: Motion,
+    sound: Sound,
+    timestamp_s: f64,
+    stamp_s: f64,
+    now: LocalTime,
+    velocity_m_s: IntervalBox<3>,
+    history: History,
+}
+
+impl TubeEstimator {
+    /// The tube that begins with what the AUV was told at birth.
+    pub fn new(born: &Born) -> Self {
+        let motion = Motion::new(&born.body, &born.clock);
+        let Orders::Tube { horizon_ns } = born.orders.estimator;
+        let state = State {
+            offset_s: interval(born.clock.offset_s),
+            position_m: interval_box(&born.prior_position_m),
+        };
+        Self {
+            velocity_m_s: motion.any_velocity(),
+            motion,
+            sound: Sound {
+                speed_m_s: interval(born.modem.sound_speed_m_s),
+                hearing_range_m: born.modem.hearing_range_m,
+            },
+            timestamp_s: born.modem.timestamp_s,
+            stamp_s: born.clock.stamp_ns as f64 * 1e-9,
+            now: born.birth,
+            history: History::new(born.birth, &state, horizon_ns),
+        }
+    }
+
+    /// Exact local time of something stamped `stamp`, in seconds.
+    fn local_s(&self, stamp: LocalTime) -> Interval {
+        // Seconds as a double are off by at most half an ulp; one whole ulp is added.
+        let seconds = stamp.as_s();
+        Interval::centred(seconds, self.stamp_s + seconds.abs() * f64::EPSILON)
+    }
+
+    /// The velocity at the tick: what the log says, what was possible, or (contradictory) the log alone.
+    fn look_at_log(&self, sensed: &Sensed, emptied: &mut Option<Emptied>) -> IntervalBox<3> {
+        let possible = self.motion.velocity_after(&self.velocity_m_s, seconds(sensed.stamp - self.now));
+        let mut logs = sensed.events.iter().filter_map(|event| match event.sense {
+            Sense::Inertial { heading_rad, pitch_rad, speed_m_s } => {
+                Some((event.stamp, velocity(heading_rad, pitch_rad, speed_m_s)))
+            }
+            _ => None,
+        });
+        let Some((stamp, logged)) = logs.next_back() else { return possible };
+        let since = self.motion.velocity_after(&logged, seconds(sensed.stamp - stamp));
+        let both = possible.intersection(&since);
+        if !both.is_empty() {
+            return both;
+        }
+        emptied.get_or_insert(Emptied { stamp, by: Culprit::Inertial });
+        since.intersection(&self.motion.any_velocity())
+    }
+
+    /// The state contracted by one event that is stamped `lag_s` local seconds before it.
+    fn contracted(&self, state: &State, event: &Event, lag_s: f64) -> Result<State, Contradiction> {
+        let stamp_s = self.local_s(event.stamp);
+        match &event.sense {
+            Sense::Inertial { .. } => Ok(*state),
+            Sense::Depth { depth_m } => state.with_depth(*depth_m),
+            Sense::Gnss { position_m, time_s } => {
+                state.with_fix(&interval_box(position_m), interval(*time_s), stamp_s)
+            }
+            Sense::Heard { frame } => {
+                // Bytes that are no ping say nothing.
+                let Ok(ping) = Ping::decode(frame) else { return Ok(*state) };
+                let arrival = Moment {
+                    stamp_s: stamp_s.inflate(self.timestamp_s),
+                    apart_s: lag_s + self.timestamp_s + 2.0 * self.stamp_s,
+                };
+                state.with_ping(&ping, &self.sound, &arrival, &self.motion)
+            }
+        }
+    }
+}
+
+impl Estimator for TubeEstimator {
+    fn update(&mut self, sensed: &Sensed) -> Estimate {
+        let mut emptied = None;
+        let mut contractions = 0;
+        let after_m_s = self.look_at_log(sensed, &mut emptied);
+        let begun = self.now;
+        let stretch =
+            Stretch { before_m_s: self.velocity_m_s, after_m_s, length_s: seconds(sensed.stamp - begun) };
+        let mut state = self.history.last();
+        let mut since = begun;
+        let mut slice: Option<State> = None;
+
+        let mut events = sensed.events.iter().peekable();
+        loop {
+            // All events up to the next moment are told before the tube moves on to it.
+            let next = events.peek().map_or(sensed.stamp, |event| event.stamp.clamp(since, sensed.stamp));
+            let moved = self.motion.over(&stretch, seconds(since - begun), seconds(next - begun));
+            let before = state;
+            state = state.moved(&moved);
+            let mut told = false;
+            while let Some(event) = events.next_if(|event| event.stamp <= next) {
+                told = true;
+                match self.contracted(&state, event, seconds(next - event.stamp)) {
+                    Ok(contracted) => {
+                        contractions += u16::from(contracted.is_tighter_than(&state));
+                        state = contracted;
+                    }
+                    Err(Contradiction(by)) => {
+                        emptied.get_or_insert(Emptied { stamp: event.stamp, by });
+                    }
+                }
+            }
+            let swept = before.swept(&moved, &state);
+            slice = Some(slice.map_or(swept, |slice| slice.hull(&swept)));
+            since = next;
+            if next == sensed.stamp && (!told || events.peek().is_none()) {
+                break;
+            }
+        }
+
+        let slice = slice.unwrap_or(state);
+        self.history.append(sensed.stamp, &slice, &state);
+        self.now = sensed.stamp;
+        self.velocity_m_s = after_m_s;
+        Estimate { state, slice, emptied, contractions }
+    }
+
+    fn predict(&self, at: LocalTime) -> Prediction {
+        let length_s = seconds(at - self.now).max(0.0);
+        let stretch = Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, length_s };
+        let state = self.history.last().moved(&self.motion.over(&stretch, 0.0, length_s));
+        Prediction {
+            time_s: state.true_time_s(self.local_s(at)),
+            position_m: state.position_m,
+            velocity_m_s: self.motion.over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s)),
+        }
+    }
+}
+
+/// `R(heading, pitch) (speed, 0, 0)`, in m/s.
+fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> IntervalBox<3> {
+    let (sin_heading, cos_heading) = measured(heading_rad).sin_cos();
+    let (sin_pitch, cos_pitch) = measured(pitch_rad).sin_cos();
+    let speed = measured(speed_m_s);
+    IntervalBox::from([speed * cos_pitch * cos_heading, speed * cos_pitch * sin_heading, speed * sin_pitch])
+}
+
+/// Seconds of a difference of stamps; exact below 104 days, where nanoseconds are whole doubles, but for the last bit.
+fn seconds(ns: i64) -> f64 {
+    ns as f64 * 1e-9
+}
