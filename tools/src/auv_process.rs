@@ -1,0 +1,38 @@
+//! `shoal auv`: the process of one AUV. It gets a link to the channel and its id, and nothing else.
+
+use shoal_auv::Auv;
+use shoal_bus::lockstep::{Link, LinkError, live};
+use shoal_bus::message::AuvId;
+use shoal_bus::os;
+use shoal_bus::run_dir::RunDir;
+use shoal_bus::shared_memory::SharedMemoryLink;
+use shoal_bus::zenoh::{ZenohFleet, ZenohLink};
+
+use crate::cli::{AuvArgs, Bus};
+use crate::exit::Exit;
+use crate::failure::{Failure, While};
+
+/// Lives one AUV's life.
+pub fn run(args: &AuvArgs) -> Result<Exit, Failure> {
+    if !os::end_with_parent(args.launcher).while_doing("tie this AUV's life to the run's")? {
+        return Ok(Exit::Failed);
+    }
+    let auv = AuvId(args.auv);
+    let run = RunDir::open(&args.run).while_doing("open the run's folder")?;
+    let joined: Result<Box<dyn Link>, LinkError> = match args.bus {
+        Bus::Local => return Err(Failure::usage("the local bus has no AUV processes")),
+        Bus::Iceoryx2 => SharedMemoryLink::join(&run, auv).map(|link| Box::new(link) as Box<dyn Link>),
+        Bus::Zenoh => {
+            let endpoint = args.endpoint.clone().unwrap_or_else(|| ZenohFleet::local_endpoint(&run));
+            ZenohLink::join(&endpoint, run.id(), auv).map(|link| Box::new(link) as Box<dyn Link>)
+        }
+    };
+    let mut link = joined.map_err(|error| named(auv, &error))?;
+    live(link.as_mut(), Auv::new).map_err(|error| named(auv, &error))?;
+    Ok(Exit::Good)
+}
+
+/// All AUVs of a run share one log: each says who it is.
+fn named(auv: AuvId, error: &LinkError) -> Failure {
+    Failure { exit: Exit::Failed, message: format!("AUV {auv}: {error}") }
+}

@@ -1,0 +1,219 @@
+//! `shoal channel`: the process of the water.
+
+use std::io::{self, BufRead, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver};
+use std::time::Instant;
+
+use shoal_bus::lockstep::{Fleet, FleetError};
+use shoal_bus::message::AuvId;
+use shoal_bus::run_dir::RunDir;
+use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
+use shoal_bus::summary::{Memory, Summary};
+use shoal_bus::zenoh::ZenohFleet;
+use shoal_channel::channel::Channel;
+use shoal_scenario::{OnCrash, Scenario};
+
+use crate::cli::Bus;
+use crate::drive::{Ending, Observer, Plan, drive};
+use crate::exit::Exit;
+use crate::failure::{Failure, While};
+use crate::launch::{Done, FromChannel, Order, ToChannel};
+use crate::memory;
+use crate::observers::{Progress, Recorder, Tapped};
+
+/// Runs the water for the launcher at the other end of the pipes, in the folder `run`.
+pub fn run(run: &RunDir) -> Result<Exit, Failure> {
+    match serve(run) {
+        Ok(()) => Ok(Exit::Good),
+        Err(failure) => {
+            say(&FromChannel::Failed { message: failure.message });
+            Ok(failure.exit)
+        }
+    }
+}
+
+fn serve(run: &RunDir) -> Result<(), Failure> {
+    let mut lines = io::stdin().lock();
+    let order = match next(&mut lines) {
+        Some(ToChannel::Run(order)) => order,
+        _ => return Err(Failure::usage("`shoal channel` is started by `shoal run`")),
+    };
+    let scenario = order.scenario()?;
+    let mut channel = Channel::new(&scenario);
+    let launched = match order.bus {
+        Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
+        Bus::Iceoryx2 => {
+            let mut fleet = SharedMemoryFleet::create(run, &wake_groups(&channel.wake_order()))
+                .map_err(Failure::failed)?;
+            let interrupt = fleet.interrupt_handle();
+            let launched = Launched::wait(lines, run.clone(), move || interrupt.interrupt())?;
+            fleet.attach_processes(&launched.processes).map_err(Failure::failed)?;
+            (Box::new(fleet) as Box<dyn Fleet>, launched)
+        }
+        Bus::Zenoh => {
+            let endpoint = order.endpoint.clone().unwrap_or_else(|| ZenohFleet::local_endpoint(run));
+            let auvs: Vec<AuvId> = channel.born().iter().map(|born| born.auv).collect();
+            let mut fleet = ZenohFleet::create(&endpoint, run.id(), &auvs).map_err(Failure::failed)?;
+            let interrupt = fleet.interrupt_handle();
+            let launched = Launched::wait(lines, run.clone(), move || interrupt.interrupt())?;
+            fleet.attach_processes(&launched.processes).map_err(Failure::failed)?;
+            (Box::new(fleet) as Box<dyn Fleet>, launched)
+        }
+    };
+    let (mut fleet, launched) = launched;
+    let outcome = carry_out(&order, &scenario, &mut channel, fleet.as_mut(), &launched, run);
+    fleet.end();
+    drop(fleet);
+    say(&outcome?);
+    Ok(())
+}
+
+/// Births, windows, and the summing up.
+fn carry_out(
+    order: &Order,
+    scenario: &Scenario,
+    channel: &mut Channel,
+    fleet: &mut dyn Fleet,
+    launched: &Launched,
+    run: &RunDir,
+) -> Result<FromChannel, Failure> {
+    let mut recorder = match &order.record {
+        Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
+        None => None,
+    };
+    let (mut tapped, trouble) = Tapped::create(run);
+    trouble.map(FromChannel::Note).iter().for_each(say);
+
+    let ending = match fleet.born(&channel.born()) {
+        Ok(losses) => {
+            channel.stillborn(losses);
+            say(&FromChannel::Started);
+            None
+        }
+        Err(FleetError::Interrupted) => Some(Ending::Interrupted),
+        Err(error) => return Err(Failure::failed(error)),
+    };
+    let began = Instant::now();
+    let ending = match ending {
+        Some(ending) => ending,
+        None => {
+            let plan = Plan {
+                window_ns: scenario.window_ns,
+                pace: order.pace,
+                abort_on_crash: scenario.on_crash == OnCrash::Abort,
+            };
+            let mut progress = Progress::new(|sim_s| say(&FromChannel::Progress(sim_s)));
+            let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
+            observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
+            drive(channel, fleet, &plan, &mut observers, &|| launched.interrupted())?
+        }
+    };
+    let wall_s = began.elapsed().as_secs_f64();
+
+    let simulated = channel.summary();
+    let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
+    incomplete_record.clone().map(FromChannel::Note).iter().for_each(say);
+    tapped.end();
+    let alive: Vec<u32> =
+        launched.processes.iter().filter(|(auv, _)| channel.is_alive(*auv)).map(|&(_, pid)| pid).collect();
+    let summary = Summary {
+        bus: Some(order.bus.name().to_owned()),
+        processes: Some(launched.processes.len() as u32 + 1),
+        wall_s: Some(wall_s),
+        real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
+        memory: Some(Memory {
+            auv_pss_kib_median: memory::median_pss_kib(&alive),
+            channel_rss_kib: memory::own_rss_kib(),
+        }),
+        ..simulated
+    };
+    let aborted = match &ending {
+        Ending::Aborted(loss) => {
+            Some(format!("AUV {} ended ({}) and on_crash = \"abort\"", loss.auv, loss.reason))
+        }
+        _ => None,
+    };
+    let incomplete = ending != Ending::Complete || incomplete_record.is_some();
+    Ok(FromChannel::Done(Box::new(Done { summary, incomplete, aborted })))
+}
+
+/// The AUVs' processes, and the launcher's later word.
+struct Launched {
+    processes: Vec<(AuvId, u32)>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Launched {
+    /// Asks the launcher for the AUVs and listens to it from then on. When it says stop, or is gone, `interrupt` is called;
+    /// when it is gone, what is left of the run is removed here, because nobody else will.
+    fn wait(
+        lines: io::StdinLock<'static>,
+        run: RunDir,
+        interrupt: impl Fn() + Send + 'static,
+    ) -> Result<Self, Failure> {
+        say(&FromChannel::Ready);
+        let stop = Arc::new(AtomicBool::new(false));
+        let (sender, receiver) = mpsc::channel();
+        let stopping = Arc::clone(&stop);
+        drop(lines);
+        let listen = move || {
+            let mut lines = io::stdin().lock();
+            while let Some(word) = next(&mut lines) {
+                match word {
+                    ToChannel::Processes(pids) => {
+                        // The receiver waits for exactly this.
+                        let _told = sender.send(pids);
+                    }
+                    ToChannel::Stop => {
+                        stopping.store(true, Ordering::Release);
+                        interrupt();
+                    }
+                    ToChannel::Run(_) => {}
+                }
+            }
+            stopping.store(true, Ordering::Release);
+            interrupt();
+            orphaned(&run);
+        };
+        std::thread::Builder::new()
+            .name("launcher".to_owned())
+            .spawn(listen)
+            .while_doing("start a thread")?;
+        Ok(Self { processes: processes(&receiver)?, stop })
+    }
+
+    fn interrupted(&self) -> bool {
+        self.stop.load(Ordering::Acquire)
+    }
+}
+
+fn processes(receiver: &Receiver<Vec<u32>>) -> Result<Vec<(AuvId, u32)>, Failure> {
+    let pids = receiver.recv().map_err(|_| Failure::failed("the launcher ended before the run began"))?;
+    Ok((0..).map(AuvId).zip(pids).collect())
+}
+
+/// The launcher is gone: give the run a moment to write what it has, then remove its traces and end.
+fn orphaned(run: &RunDir) {
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    if let Err(error) = run.remove() {
+        eprintln!("error: what is left of run {} could not be removed: {error}", run.id());
+    }
+    std::process::exit(Exit::Failed as i32);
+}
+
+fn next(lines: &mut dyn BufRead) -> Option<ToChannel> {
+    let mut line = String::new();
+    match lines.read_line(&mut line) {
+        Ok(1..) => serde_json::from_str(&line).ok(),
+        _ => None,
+    }
+}
+
+fn say(word: &FromChannel) {
+    let Ok(line) = serde_json::to_string(word) else { return };
+    // A launcher that is gone is noticed by the end of our input.
+    let mut out = io::stdout().lock();
+    let _gone = writeln!(out, "{line}").and_then(|()| out.flush());
+}

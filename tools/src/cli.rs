@@ -1,0 +1,194 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde::{Deserialize, Serialize};
+
+/// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
+/// sensors, and proves at every step that none of them loses the truth.
+#[derive(Debug, Parser)]
+#[command(name = "shoal", version, max_term_width = 110)]
+#[command(
+    after_help = "Exit codes: 0 good, 1 failed, 2 usage or refused scenario, 3 finished with loss (an AUV died, or the run \
+    or its data are incomplete), 4 an enclosure did not hold the truth."
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scenario: one process per AUV, and one for the water
+    #[command(
+        after_help = "Examples:\n  shoal run six-circles\n  shoal run swarm-300 --record flock.mcap\n  \
+        shoal run my.toml --seed 7 --auvs 50 --bus local --json"
+    )]
+    Run(RunArgs),
+    /// Watch the pings of a live run on this host
+    #[command(
+        after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
+    )]
+    Tap(TapArgs),
+    /// List the scenarios that come with Shoal, or print one
+    #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
+    Scenarios {
+        /// Print the text of this one
+        name: Option<String>,
+        /// One JSON line each
+        #[arg(long)]
+        json: bool,
+    },
+    /// Check scenario files without running them
+    #[command(after_help = "Example:\n  shoal check mine.toml")]
+    Check {
+        /// Names from the library, or paths
+        #[arg(required = true)]
+        scenarios: Vec<String>,
+    },
+    /// Look into records (MCAP files)
+    Record {
+        #[command(subcommand)]
+        command: RecordCommand,
+    },
+    /// One AUV; started by `run`
+    #[command(hide = true)]
+    Auv(AuvArgs),
+    /// The water; started by `run`
+    #[command(hide = true)]
+    Channel {
+        /// Folder of the run
+        #[arg(long)]
+        run: PathBuf,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum RecordCommand {
+    /// What a record holds; verifies every checksum
+    #[command(after_help = "Example:\n  shoal record info flock.mcap")]
+    Info {
+        /// The record
+        file: PathBuf,
+        /// One JSON line
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// A name from `shoal scenarios`, or the path of a scenario file
+    pub scenario: String,
+    /// What carries the messages
+    #[arg(long, value_enum, default_value_t = Bus::Iceoryx2)]
+    pub bus: Bus,
+    /// Seed of every random draw
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Number of AUVs: scales all groups in proportion
+    #[arg(long, value_name = "N")]
+    pub auvs: Option<u32>,
+    /// Simulated seconds
+    #[arg(long = "duration-s", visible_alias = "duration", value_name = "SECONDS")]
+    pub duration_s: Option<f64>,
+    /// Lockstep window in milliseconds of true time; never changes the result
+    #[arg(long = "window-ms", visible_alias = "window", value_name = "MILLISECONDS")]
+    pub window_ms: Option<f64>,
+    /// How errors are drawn inside their bounds: `uniform` or `adversarial`
+    #[arg(long)]
+    pub noise: Option<String>,
+    /// `max`, or simulated seconds per second of wall clock: 1 is real time
+    #[arg(long, default_value = "max", value_parser = parse_pace)]
+    pub pace: Pace,
+    /// Write a record (MCAP) of the run
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// zenoh endpoint to listen on and connect to, such as `tcp/127.0.0.1:7447`; a private socket unless given
+    #[arg(long, value_name = "ENDPOINT")]
+    pub endpoint: Option<String>,
+    /// Print the summary as one JSON line
+    #[arg(long)]
+    pub json: bool,
+    /// No progress bar
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct TapArgs {
+    /// Id of the run, when several are live
+    #[arg(long)]
+    pub run: Option<String>,
+    /// One JSON line per event
+    #[arg(long)]
+    pub json: bool,
+    /// End after so many events
+    #[arg(long, value_name = "N")]
+    pub count: Option<u64>,
+    /// Wait so many seconds for a run to begin
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
+    pub wait: f64,
+}
+
+#[derive(Debug, Args)]
+pub struct AuvArgs {
+    /// Folder of the run
+    #[arg(long)]
+    pub run: PathBuf,
+    /// Its id
+    #[arg(long)]
+    pub auv: u32,
+    /// What carries the messages
+    #[arg(long, value_enum)]
+    pub bus: Bus,
+    /// zenoh endpoint of the channel
+    #[arg(long)]
+    pub endpoint: Option<String>,
+    /// Process that started it, with which it ends
+    #[arg(long)]
+    pub launcher: u32,
+}
+
+/// What carries the messages of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Bus {
+    /// No processes: all in one program
+    Local,
+    /// Shared memory on this host
+    Iceoryx2,
+    /// zenoh, one session per AUV
+    Zenoh,
+}
+
+impl Bus {
+    /// As on the command line and in summaries.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Local => "local",
+            Self::Iceoryx2 => "iceoryx2",
+            Self::Zenoh => "zenoh",
+        }
+    }
+}
+
+/// How fast simulated time goes by.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Pace {
+    /// As fast as it can.
+    Max,
+    /// So many simulated seconds per second of wall clock, at most.
+    Factor(f64),
+}
+
+fn parse_pace(text: &str) -> Result<Pace, String> {
+    match text {
+        "max" => Ok(Pace::Max),
+        _ => match text.parse::<f64>() {
+            Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(Pace::Factor(factor)),
+            _ => Err("give `max` or a positive number, such as `1` for real time".to_owned()),
+        },
+    }
+}

@@ -1,0 +1,81 @@
+//! Drives a run: window by window between the water and a fleet of AUVs, with observers looking on.
+
+use std::time::{Duration, Instant};
+
+use shoal_bus::chronicle::Entry;
+use shoal_bus::lockstep::{Fleet, FleetError, Loss};
+use shoal_bus::time::SimTime;
+use shoal_channel::channel::Channel;
+
+use crate::cli::Pace;
+use crate::failure::Failure;
+
+/// Someone who looks on without changing anything.
+pub trait Observer {
+    /// All that happened before `to` and was not yet told, in order.
+    fn window(&mut self, to: SimTime, entries: &[Entry]);
+}
+
+/// How to drive.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// Nanoseconds of true time per window.
+    pub window_ns: i64,
+    /// How fast.
+    pub pace: Pace,
+    /// Whether the end of any AUV ends the run.
+    pub abort_on_crash: bool,
+}
+
+/// How the drive ended, short of failing.
+#[derive(Debug, PartialEq)]
+pub enum Ending {
+    /// The scenario's end was reached.
+    Complete,
+    /// The user asked to stop.
+    Interrupted,
+    /// An AUV ended and the scenario says that the run ends with it.
+    Aborted(Loss),
+}
+
+/// Runs from the channel's present to its end. `interrupted` is asked once a window.
+pub fn drive(
+    channel: &mut Channel,
+    fleet: &mut dyn Fleet,
+    plan: &Plan,
+    observers: &mut [&mut dyn Observer],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Ending, Failure> {
+    let began = Instant::now();
+    while channel.now() < channel.end() {
+        if interrupted() {
+            return Ok(Ending::Interrupted);
+        }
+        let to = (channel.now() + plan.window_ns).min(channel.end());
+        keep_pace(plan.pace, began, to);
+        let sensed = channel.advance(to).map_err(Failure::failed)?;
+        let answers = match fleet.exchange(&sensed) {
+            Ok(answers) => answers,
+            Err(FleetError::Interrupted) => return Ok(Ending::Interrupted),
+            Err(error) => return Err(Failure::failed(error)),
+        };
+        let loss = answers.losses.first().cloned();
+        let entries = channel.accept(answers).map_err(Failure::failed)?;
+        for observer in observers.iter_mut() {
+            observer.window(to, entries);
+        }
+        if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {
+            return Ok(Ending::Aborted(loss));
+        }
+    }
+    Ok(Ending::Complete)
+}
+
+/// Waits until the wall clock has come as far as the end of the window.
+fn keep_pace(pace: Pace, began: Instant, to: SimTime) {
+    let Pace::Factor(factor) = pace else { return };
+    let due = Duration::from_secs_f64(to.as_s() / factor);
+    if let Some(early) = due.checked_sub(began.elapsed()) {
+        std::thread::sleep(early);
+    }
+}

@@ -1,0 +1,79 @@
+//! What the launcher and the channel's process say to each other: JSON lines over pipes.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+use shoal_bus::summary::Summary;
+
+use crate::cli::{Bus, Pace};
+
+/// From the launcher to the channel, on its standard input. The input's end means that the launcher is gone.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToChannel {
+    /// What to run; comes first.
+    Run(Box<Order>),
+    /// Process ids of the AUVs, in the order of their ids.
+    Processes(Vec<u32>),
+    /// Stop and sum up.
+    Stop,
+}
+
+/// What to run.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Order {
+    /// What errors call the scenario.
+    pub source_name: String,
+    /// The scenario's text.
+    pub text: String,
+    /// `--seed`.
+    pub seed: Option<u64>,
+    /// `--auvs`.
+    pub auvs: Option<u32>,
+    /// `--duration-s`.
+    pub duration_s: Option<f64>,
+    /// `--window-ms`.
+    pub window_ms: Option<f64>,
+    /// `--noise`.
+    pub noise: Option<String>,
+    /// Transport.
+    pub bus: Bus,
+    /// zenoh endpoint.
+    pub endpoint: Option<String>,
+    /// Pace.
+    pub pace: Pace,
+    /// Where to record.
+    pub record: Option<PathBuf>,
+}
+
+/// From the channel to the launcher, on its standard output.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FromChannel {
+    /// The bus is up: start the AUVs.
+    Ready,
+    /// All AUVs have reported in; the first window begins.
+    Started,
+    /// So many simulated seconds are done.
+    Progress(f64),
+    /// Something that the user should know.
+    Note(String),
+    /// The run is over.
+    Done(Box<Done>),
+    /// It failed.
+    Failed {
+        /// The whole sentence.
+        message: String,
+    },
+}
+
+/// The end of a run.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Done {
+    /// What it amounts to; the launcher adds what only it knows.
+    pub summary: Summary,
+    /// Whether it stopped before the scenario's end, or its record is incomplete.
+    pub incomplete: bool,
+    /// Why it was aborted, if it was.
+    pub aborted: Option<String>,
+}

@@ -1,0 +1,50 @@
+//! `shoal`: simulates a swarm of autonomous underwater vehicles, a process each, that know where they are.
+//!
+//! This executable is also every process of a run: `shoal run` starts `shoal channel` and one `shoal auv` per vehicle.
+
+mod auv_process;
+mod channel_process;
+mod cli;
+mod drive;
+mod exit;
+mod failure;
+mod launch;
+mod memory;
+mod observers;
+mod processes;
+mod progress;
+mod record_info;
+mod run;
+mod scenario_order;
+mod scenarios;
+mod summary_text;
+mod tap;
+mod terminal;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use cli::{Cli, Command, RecordCommand};
+use failure::While;
+use shoal_bus::run_dir::RunDir;
+
+fn main() -> ExitCode {
+    let outcome = match &Cli::parse().command {
+        Command::Run(args) => run::run(args),
+        Command::Tap(args) => tap::run(args),
+        Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
+        Command::Check { scenarios } => scenarios::check(scenarios),
+        Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Auv(args) => auv_process::run(args),
+        Command::Channel { run } => {
+            RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))
+        }
+    };
+    match outcome {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            eprintln!("{}", failure.message.trim_end());
+            failure.exit.into()
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! The processes of a run: started here, ended here, whatever happens.
+
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::PathBuf;
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use shoal_bus::run_dir::RunDir;
+use shoal_bus::zenoh::RUNTIME_ENV;
+
+use crate::cli::Bus;
+use crate::failure::{Failure, While};
+use crate::launch::{FromChannel, Order, ToChannel};
+
+/// How long processes that were told to end may take.
+const FAREWELL: Duration = Duration::from_secs(10);
+
+/// This program's own file, under the name it was started by.
+fn executable() -> Result<PathBuf, Failure> {
+    std::env::current_exe().while_doing("find this program's own file")
+}
+
+/// A command that a Ctrl-C in the terminal does not reach: the launcher passes it on.
+fn command(exe: &PathBuf) -> Command {
+    let mut command = Command::new(exe);
+    command.process_group(0);
+    command
+}
+
+/// The process of the water and the pipes to it.
+pub struct Channels {
+    child: Child,
+    input: Arc<Mutex<ChildStdin>>,
+    output: BufReader<ChildStdout>,
+}
+
+impl Channels {
+    /// Starts it and passes on interrupts to it.
+    pub fn start(run: &RunDir, order: &Order, interrupted: &Arc<AtomicBool>) -> Result<Self, Failure> {
+        let mut child = command(&executable()?)
+            .arg("channel")
+            .arg("--run")
+            .arg(run.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .while_doing("start the channel's process")?;
+        let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err(Failure::failed("the channel's process has no pipes"));
+        };
+        let input = Arc::new(Mutex::new(input));
+        let order = serde_json::to_string(&ToChannelRef::Run(order)).while_doing("describe the run")?;
+        write_line(&input, &order);
+        pass_on(Arc::clone(interrupted), Arc::clone(&input)).while_doing("start a thread")?;
+        Ok(Self { child, input, output: BufReader::new(output) })
+    }
+
+    /// Its next word.
+    pub fn next(&mut self) -> Result<FromChannel, Failure> {
+        let mut line = String::new();
+        let read = self.output.read_line(&mut line).while_doing("hear from the channel's process")?;
+        if read == 0 {
+            let ending = self.child.wait().map_or_else(|error| error.to_string(), describe);
+            return Err(Failure::failed(format!(
+                "the channel's process ended in the middle of the run: {ending}"
+            )));
+        }
+        serde_json::from_str(&line).while_doing("understand the channel's process")
+    }
+
+    /// Tells it who the AUVs are.
+    pub fn tell_processes(&self, pids: &[u32]) {
+        say(&self.input, &ToChannel::Processes(pids.to_vec()));
+    }
+
+    /// Waits for its end, which it has announced.
+    pub fn wait(&mut self) {
+        end_by(&mut self.child, Instant::now() + FAREWELL);
+    }
+}
+
+impl Drop for Channels {
+    fn drop(&mut self) {
+        end_by(&mut self.child, Instant::now());
+    }
+}
+
+/// [`ToChannel::Run`] without a copy.
+#[derive(serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+enum ToChannelRef<'a> {
+    Run(&'a Order),
+}
+
+/// Tells the channel to stop once the flag is set.
+fn pass_on(interrupted: Arc<AtomicBool>, input: Arc<Mutex<ChildStdin>>) -> std::io::Result<()> {
+    let watch = move || {
+        while !interrupted.load(Ordering::Acquire) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        say(&input, &ToChannel::Stop);
+    };
+    std::thread::Builder::new().name("interrupts".to_owned()).spawn(watch).map(drop)
+}
+
+fn say(input: &Mutex<ChildStdin>, word: &ToChannel) {
+    if let Ok(line) = serde_json::to_string(word) {
+        write_line(input, &line);
+    }
+}
+
+/// A channel that is gone is noticed by the end of its output.
+fn write_line(input: &Mutex<ChildStdin>, line: &str) {
+    let mut input = input.lock().unwrap_or_else(PoisonError::into_inner);
+    let _gone = writeln!(input, "{line}").and_then(|()| input.flush());
+}
+
+/// The AUVs' processes.
+#[derive(Default)]
+pub struct Swarm {
+    children: Vec<Child>,
+    log: Option<PathBuf>,
+}
+
+impl Swarm {
+    /// Starts one process per AUV.
+    pub fn start(&mut self, run: &RunDir, order: &Order, count: u32) -> Result<(), Failure> {
+        let exe = executable()?;
+        let log = run.path().join("auvs.log");
+        let launcher = std::process::id().to_string();
+        let log_file = open_log(&log).while_doing("open a log for the AUVs")?;
+        for auv in 0..count {
+            let mut command = command(&exe);
+            command.arg("auv").arg("--run").arg(run.path()).args(["--auv", &auv.to_string()]);
+            command.args(["--bus", order.bus.name(), "--launcher", &launcher]);
+            if let Some(endpoint) = &order.endpoint {
+                command.args(["--endpoint", endpoint]);
+            }
+            if order.bus == Bus::Zenoh {
+                command.env(RUNTIME_ENV.0, RUNTIME_ENV.1);
+            }
+            let stderr = log_file.try_clone().while_doing("share the AUVs' log")?;
+            let child = command
+                .stdin(Stdio::null())
+                .stdout(Stdio::null())
+                .stderr(stderr)
+                .spawn()
+                .map_err(|error| too_many(auv, count, &error))?;
+            self.children.push(child);
+        }
+        self.log = Some(log);
+        Ok(())
+    }
+
+    /// Process ids in the order of the AUVs' ids.
+    pub fn pids(&self) -> Vec<u32> {
+        self.children.iter().map(Child::id).collect()
+    }
+
+    /// Waits for all to end, which they have been told to, and says how each did: by its status, or in its own last words.
+    pub fn wait(&mut self) -> Vec<String> {
+        let deadline = Instant::now() + FAREWELL;
+        let statuses: Vec<_> = self.children.iter_mut().map(|child| end_by(child, deadline)).collect();
+        let log = self.log.as_ref().and_then(|log| std::fs::read_to_string(log).ok()).unwrap_or_default();
+        let ending = |(auv, status): (usize, Option<ExitStatus>)| {
+            let status = status.map_or_else(|| "its end is unknown".to_owned(), describe);
+            let start = format!("AUV {auv}: ");
+            match log.lines().rev().find_map(|line| line.strip_prefix(&start)) {
+                Some(words) => format!("{status}: {words}"),
+                None => status,
+            }
+        };
+        statuses.into_iter().enumerate().map(ending).collect()
+    }
+}
+
+impl Drop for Swarm {
+    fn drop(&mut self) {
+        for child in &mut self.children {
+            // One that has ended already needs no killing.
+            let _ended = child.kill();
+        }
+        for child in &mut self.children {
+            let _reaped = child.wait();
+        }
+    }
+}
+
+fn open_log(path: &PathBuf) -> std::io::Result<File> {
+    OpenOptions::new().create(true).append(true).open(path)
+}
+
+fn too_many(auv: u32, count: u32, error: &std::io::Error) -> Failure {
+    Failure::failed(format!(
+        "the process of AUV {auv} of {count} could not be started: {error}; if this is a limit, raise `ulimit -u` and \
+         `ulimit -n`, or run fewer with --auvs"
+    ))
+}
+
+/// Waits for a child until `deadline`, then kills it; its status, if it can be had.
+fn end_by(child: &mut Child, deadline: Instant) -> Option<ExitStatus> {
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Some(status),
+            Ok(None) if Instant::now() < deadline => std::thread::sleep(Duration::from_millis(2)),
+            _ => break,
+        }
+    }
+    let _ended = child.kill();
+    child.wait().ok()
+}
+
+fn describe(status: ExitStatus) -> String {
+    match (status.code(), status.signal()) {
+        (Some(code), _) => format!("exited with code {code}"),
+        (None, Some(signal)) => format!("killed by signal {signal}"),
+        (None, None) => "ended".to_owned(),
+    }
+}

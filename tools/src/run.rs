@@ -1,0 +1,194 @@
+//! `shoal run`: starts the processes of a run, watches over them, and sums up.
+
+use std::io::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use shoal_auv::Auv;
+use shoal_bus::local::Local;
+use shoal_bus::lockstep::Fleet;
+use shoal_bus::run_dir::RunDir;
+use shoal_bus::summary::{Memory, Summary};
+use shoal_channel::channel::Channel;
+use shoal_scenario::{OnCrash, Scenario};
+
+use crate::cli::{Bus, RunArgs};
+use crate::drive::{Ending, Observer, Plan, drive};
+use crate::exit::Exit;
+use crate::failure::{Failure, While};
+use crate::launch::{Done, FromChannel, Order};
+use crate::memory;
+use crate::observers::{Progress, Recorder, Tapped};
+use crate::processes::{Channels, Swarm};
+use crate::progress::Bar;
+use crate::summary_text;
+
+/// Runs a scenario and prints what it amounts to.
+pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
+    let order = Order::read(args)?;
+    let scenario = order.scenario()?;
+    RunDir::sweep();
+    let interrupted = interrupts().while_doing("watch for Ctrl-C")?;
+    let run = RunDir::create(&description(&scenario, &order)).while_doing("make a folder for the run")?;
+    let _residue = Residue(run.clone());
+    let bar = Bar::new(&scenario, args.quiet || args.json);
+    let done = match order.bus {
+        Bus::Local => in_this_program(&order, &scenario, &run, &interrupted, &bar)?,
+        Bus::Iceoryx2 | Bus::Zenoh => in_processes(&order, &scenario, &run, &interrupted, &bar)?,
+    };
+    bar.finish();
+    print_summary(args, &done)?;
+    Ok(exit(&done))
+}
+
+/// Removes what the run leaves in shared memory, however it ends.
+struct Residue(RunDir);
+
+impl Drop for Residue {
+    fn drop(&mut self) {
+        if let Err(error) = self.0.remove() {
+            eprintln!("warning: what is left of run {} could not be removed: {error}", self.0.id());
+        }
+    }
+}
+
+/// What others on this host may know of the run.
+fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
+    serde_json::json!({
+        "format": "shoal.run/1",
+        "scenario": scenario.name,
+        "seed": scenario.seed,
+        "auvs": scenario.auv_count(),
+        "bus": order.bus.name(),
+        "launcher": std::process::id(),
+    })
+}
+
+/// A flag that Ctrl-C and a polite kill set; a second one ends this process at once.
+fn interrupts() -> std::io::Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
+        signal_hook::flag::register_conditional_shutdown(signal, Exit::Failed as i32, Arc::clone(&flag))?;
+        signal_hook::flag::register(signal, Arc::clone(&flag))?;
+    }
+    Ok(flag)
+}
+
+/// A process for the water and one for each AUV.
+fn in_processes(
+    order: &Order,
+    scenario: &Scenario,
+    run: &RunDir,
+    interrupted: &Arc<AtomicBool>,
+    bar: &Bar,
+) -> Result<Done, Failure> {
+    let began = Instant::now();
+    let mut channel = Channels::start(run, order, interrupted)?;
+    let mut swarm = Swarm::default();
+    let mut startup_s = None;
+    loop {
+        match channel.next()? {
+            FromChannel::Ready => {
+                swarm.start(run, order, scenario.auv_count())?;
+                channel.tell_processes(&swarm.pids());
+            }
+            FromChannel::Started => {
+                startup_s = Some(began.elapsed().as_secs_f64());
+                bar.start();
+            }
+            FromChannel::Progress(sim_s) => bar.advance(sim_s),
+            FromChannel::Note(note) => bar.note(&note),
+            FromChannel::Failed { message } => return Err(Failure { exit: Exit::Failed, message }),
+            FromChannel::Done(mut done) => {
+                done.summary.startup_s = startup_s;
+                channel.wait();
+                let endings = swarm.wait();
+                for lost in &mut done.summary.agents.lost {
+                    if let Some(ending) = endings.get(lost.auv as usize) {
+                        lost.reason = format!("{}; {}", ending, lost.reason);
+                    }
+                }
+                return Ok(*done);
+            }
+        }
+    }
+}
+
+/// No processes: the reference.
+fn in_this_program(
+    order: &Order,
+    scenario: &Scenario,
+    run: &RunDir,
+    interrupted: &AtomicBool,
+    bar: &Bar,
+) -> Result<Done, Failure> {
+    let began = Instant::now();
+    let mut channel = Channel::new(scenario);
+    let mut fleet = Local::new(Auv::new);
+    let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
+    channel.stillborn(losses);
+    let mut recorder = match &order.record {
+        Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
+        None => None,
+    };
+    let (mut tapped, trouble) = Tapped::create(run);
+    trouble.iter().for_each(|trouble| bar.note(trouble));
+    let startup_s = began.elapsed().as_secs_f64();
+    bar.start();
+
+    let plan = Plan {
+        window_ns: scenario.window_ns,
+        pace: order.pace,
+        abort_on_crash: scenario.on_crash == OnCrash::Abort,
+    };
+    let mut progress = Progress::new(|sim_s| bar.advance(sim_s));
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
+    observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
+    let windows = Instant::now();
+    let is_interrupted = || interrupted.load(Ordering::Acquire);
+    let ending = drive(&mut channel, &mut fleet, &plan, &mut observers, &is_interrupted)?;
+    let wall_s = windows.elapsed().as_secs_f64();
+
+    let simulated = channel.summary();
+    let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
+    incomplete_record.iter().for_each(|trouble| bar.note(trouble));
+    tapped.end();
+    let summary = Summary {
+        bus: Some(order.bus.name().to_owned()),
+        processes: Some(1),
+        wall_s: Some(wall_s),
+        startup_s: Some(startup_s),
+        real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
+        memory: Some(Memory { auv_pss_kib_median: 0, channel_rss_kib: memory::own_rss_kib() }),
+        ..simulated
+    };
+    let incomplete = ending != Ending::Complete || incomplete_record.is_some();
+    Ok(Done { summary, incomplete, aborted: None })
+}
+
+fn print_summary(args: &RunArgs, done: &Done) -> Result<(), Failure> {
+    let text = if args.json {
+        serde_json::to_string(&done.summary).while_doing("print the summary")? + "\n"
+    } else {
+        summary_text::render(&done.summary)
+    };
+    if let Some(aborted) = &done.aborted {
+        eprintln!("error: the run was aborted: {aborted}");
+    }
+    // Whoever closed our output does not want the summary; the exit code still tells.
+    let _closed = std::io::stdout().lock().write_all(text.as_bytes());
+    Ok(())
+}
+
+fn exit(done: &Done) -> Exit {
+    if done.summary.containment.violations > 0 {
+        Exit::Violated
+    } else if done.aborted.is_some() {
+        Exit::Failed
+    } else if done.incomplete || !done.summary.agents.lost.is_empty() {
+        Exit::Loss
+    } else {
+        Exit::Good
+    }
+}

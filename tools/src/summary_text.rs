@@ -1,0 +1,152 @@
+//! The summary for people.
+
+use std::fmt::Write;
+
+use shoal_bus::summary::{Summary, ViolationLine};
+
+/// A dozen lines that say what a run amounts to.
+pub fn render(summary: &Summary) -> String {
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _infallible = write_all(&mut text, summary);
+    text
+}
+
+fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
+    let Summary { containment, position_width_m: position, clock_width_s: clock, pings, flock, .. } = summary;
+    let bus = summary.bus.as_deref().unwrap_or("-");
+    let processes = summary.processes.unwrap_or(0);
+    let plural = if processes == 1 { "process" } else { "processes" };
+    writeln!(
+        text,
+        "{}, seed {}: {} AUVs, {processes} {plural} on {bus}",
+        summary.scenario, summary.seed, summary.auvs
+    )?;
+    writeln!(
+        text,
+        "  time          {} s simulated in {:.2} s, {:.1} times real time ({:.2} s to start)",
+        number(summary.sim_s),
+        summary.wall_s.unwrap_or(0.0),
+        summary.real_time_factor.unwrap_or(0.0),
+        summary.startup_s.unwrap_or(0.0),
+    )?;
+    let verdict =
+        if containment.violations == 0 { "no enclosure lost the truth" } else { "THE TRUTH WAS LOST" };
+    writeln!(
+        text,
+        "  containment   {} checks, {} violations: {verdict}",
+        grouped(containment.checks),
+        grouped(containment.violations)
+    )?;
+    for violation in &containment.first {
+        writeln!(text, "    {}", describe(violation))?;
+    }
+    writeln!(
+        text,
+        "  position      width {:.2} m at first, {:.2} m at last in the median, {:.2} m at most",
+        position.start_median, position.end_median, position.end_max
+    )?;
+    writeln!(
+        text,
+        "  clock         width {} at first, {} at last in the median, {} at most",
+        seconds(clock.start_median),
+        seconds(clock.end_median),
+        seconds(clock.end_max)
+    )?;
+    let lost = &pings.lost;
+    writeln!(text, "  pings         {} emitted, {} heard", grouped(pings.emitted), grouped(pings.heard))?;
+    let reasons = [
+        ("range", lost.range),
+        ("noise", lost.noise),
+        ("collision", lost.collision),
+        ("half duplex", lost.half_duplex),
+        ("late", lost.late),
+        ("dead", lost.dead),
+    ];
+    let lost: Vec<String> = reasons
+        .iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(reason, count)| format!("{} {reason}", grouped(*count)))
+        .collect();
+    let lost = if lost.is_empty() { "none".to_owned() } else { lost.join(", ") };
+    writeln!(text, "                lost: {lost}; still under way: {}", grouped(pings.in_flight))?;
+    let separation = flock.min_separation_m.map_or("-".to_owned(), |metres| format!("{metres:.2} m"));
+    writeln!(
+        text,
+        "  flock         polarization {:.2}, least separation {separation}, {} collisions, connectivity {:.2}",
+        flock.polarization, flock.collisions, flock.connectivity
+    )?;
+    for lost in &summary.agents.lost {
+        writeln!(
+            text,
+            "  lost          {} (AUV {}) at {} s: {}",
+            lost.name,
+            lost.auv,
+            number(lost.time_s),
+            lost.reason
+        )?;
+    }
+    if let Some(memory) = &summary.memory {
+        write!(text, "  memory        channel {:.1} MiB", memory.channel_rss_kib as f64 / 1024.0)?;
+        if memory.auv_pss_kib_median > 0 {
+            write!(text, ", AUV {:.2} MiB in the median", memory.auv_pss_kib_median as f64 / 1024.0)?;
+        }
+        writeln!(text)?;
+    }
+    let reproducible = if summary.reproducible { "reproducible" } else { "NOT reproducible" };
+    writeln!(text, "  digest        {} ({reproducible})", summary.digest)
+}
+
+fn describe(violation: &ViolationLine) -> String {
+    let ViolationLine { auv, name, time_s, enclosure, coordinate, margin, unit } = violation;
+    let what = match enclosure.as_str() {
+        "emptied" => "reported an empty set, though no fault was declared".to_owned(),
+        _ => match margin {
+            Some(margin) => format!("{enclosure}: {coordinate} is {margin:.3e} {unit} outside"),
+            None => format!("{enclosure}: holds nothing or cannot be read"),
+        },
+    };
+    format!("{name} (AUV {auv}) at {time_s:.3} s, {what}")
+}
+
+/// With three digits after the point at most.
+fn number(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Seconds with a prefix that suits.
+fn seconds(value: f64) -> String {
+    match value {
+        _ if value >= 1.0 => format!("{value:.2} s"),
+        _ if value >= 1e-3 => format!("{:.2} ms", value * 1e3),
+        _ => format!("{:.2} us", value * 1e6),
+    }
+}
+
+/// Thousands apart.
+fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!((number(30.0), number(1.25)), ("30".to_owned(), "1.25".to_owned()));
+        assert_eq!((seconds(2.0), seconds(0.0125)), ("2.00 s".to_owned(), "12.50 ms".to_owned()));
+    }
+}

@@ -1,0 +1,164 @@
+//! `shoal tap`: watches the pings of a live run.
+
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+use shoal_bus::run_dir::RunDir;
+use shoal_bus::tap::{TapError, TapItem, TapSubscriber};
+use shoal_bus::traffic::{Fate, Traffic};
+
+use crate::cli::TapArgs;
+use crate::exit::Exit;
+use crate::failure::{Failure, While};
+
+/// Prints every event of the tapped run until it ends, or `--count` are printed.
+pub fn run(args: &TapArgs) -> Result<Exit, Failure> {
+    let mut tap = attached(args)?;
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let mut left = args.count.unwrap_or(u64::MAX);
+    while left > 0 {
+        let Some(item) = tap.next(Duration::from_millis(200)).while_doing("listen to the run")? else {
+            if out.flush().is_err() || !tap.run_is_live() {
+                break;
+            }
+            continue;
+        };
+        let TapItem::Batch(batch) = item else { break };
+        for traffic in batch.traffic.iter().take(left.try_into().unwrap_or(usize::MAX)) {
+            let line = if args.json { json_line(traffic) } else { text_line(traffic) };
+            if writeln!(out, "{line}").is_err() {
+                // Whoever read us has gone: so do we.
+                return Ok(Exit::Good);
+            }
+            left -= 1;
+        }
+    }
+    let _closed = out.flush();
+    match tap.missed() {
+        0 => Ok(Exit::Good),
+        missed => {
+            eprintln!("warning: this tap was too slow and missed {missed} events");
+            Ok(Exit::Loss)
+        }
+    }
+}
+
+/// A tap on one run, and the run.
+struct Attached {
+    run: RunDir,
+    tap: TapSubscriber,
+}
+
+impl Attached {
+    fn next(&mut self, timeout: Duration) -> Result<Option<TapItem>, TapError> {
+        self.tap.next(timeout)
+    }
+
+    fn missed(&self) -> u64 {
+        self.tap.missed()
+    }
+
+    fn run_is_live(&self) -> bool {
+        self.run.is_live()
+    }
+}
+
+/// Finds the run and attaches, waiting as long as `--wait` says.
+fn attached(args: &TapArgs) -> Result<Attached, Failure> {
+    let patience = Duration::try_from_secs_f64(args.wait)
+        .map_err(|_| Failure::usage(format!("--wait {}: give a positive number of seconds", args.wait)))?;
+    let deadline = Instant::now() + patience;
+    loop {
+        let attempt = chosen(args).and_then(|run| match TapSubscriber::attach(&run) {
+            Ok(tap) => Ok(Attached { run, tap }),
+            Err(error) => Err(Failure::failed(format!("run {} cannot be tapped: {error}", run.id()))),
+        });
+        match attempt {
+            Err(failure) if Instant::now() >= deadline || failure.exit == Exit::Usage => return Err(failure),
+            Err(_) => std::thread::sleep(Duration::from_millis(20)),
+            Ok(attached) => return Ok(attached),
+        }
+    }
+}
+
+/// The run that `--run` names, or the only one.
+fn chosen(args: &TapArgs) -> Result<RunDir, Failure> {
+    let mut live: Vec<RunDir> = RunDir::list().into_iter().filter(RunDir::is_live).collect();
+    if let Some(id) = &args.run {
+        let names = list(&live);
+        return live.into_iter().find(|run| run.id() == id).ok_or_else(|| {
+            Failure::failed(format!("no live run has the id `{id}`; live on this host: {names}"))
+        });
+    }
+    match live.len() {
+        0 => Err(Failure::failed(
+            "no run is live on this host; start one with `shoal run`, or give --wait SECONDS",
+        )),
+        1 => Ok(live.swap_remove(0)),
+        _ => Err(Failure::usage(format!("several runs are live, choose one with --run ID: {}", list(&live)))),
+    }
+}
+
+fn list(runs: &[RunDir]) -> String {
+    let name = |run: &RunDir| {
+        let description = run.description().unwrap_or_default();
+        let scenario = description["scenario"].as_str().unwrap_or("?").to_owned();
+        format!("{} ({scenario})", run.id())
+    };
+    if runs.is_empty() { "none".to_owned() } else { runs.iter().map(name).collect::<Vec<_>>().join(", ") }
+}
+
+fn text_line(traffic: &Traffic) -> String {
+    let Traffic { at, from, sequence, fate } = traffic;
+    let at_s = at.as_s();
+    match fate {
+        Fate::Emitted { bytes, box_width_m, beyond_range, .. } => format!(
+            "{at_s:10.3} s  {from:>4} ->  all  emitted  #{sequence}  {bytes} B  box {box_width_m:.1} m  {beyond_range} beyond range"
+        ),
+        Fate::Heard { to, range_m, travel_s, box_width_m } => format!(
+            "{at_s:10.3} s  {from:>4} -> {to:>4}  heard  {range_m:.1} m  {:.1} ms  box {box_width_m:.1} m",
+            travel_s * 1e3
+        ),
+        Fate::Lost { to, reason, range_m } => {
+            let to = to.map_or("-".to_owned(), |to| to.to_string());
+            format!("{at_s:10.3} s  {from:>4} -> {to:>4}  lost   {range_m:.1} m  {}", reason.name())
+        }
+    }
+}
+
+fn json_line(traffic: &Traffic) -> String {
+    let Traffic { at, from, sequence, fate } = traffic;
+    let mut line = json!({
+        "format": "shoal.ping/1",
+        "time_ns": at.ns(),
+        "from": from,
+        "sequence": sequence,
+    });
+    let facts = match fate {
+        Fate::Emitted { position_m, bytes, box_width_m, beyond_range } => json!({
+            "event": "emitted",
+            "position_m": position_m,
+            "bytes": bytes,
+            "box_width_m": box_width_m,
+            "beyond_range": beyond_range,
+        }),
+        Fate::Heard { to, range_m, travel_s, box_width_m } => json!({
+            "event": "heard",
+            "to": to,
+            "range_m": range_m,
+            "travel_s": travel_s,
+            "box_width_m": box_width_m,
+        }),
+        Fate::Lost { to, reason, range_m } => json!({
+            "event": "lost",
+            "to": to,
+            "reason": reason.name(),
+            "range_m": range_m,
+        }),
+    };
+    if let (Some(line), serde_json::Value::Object(facts)) = (line.as_object_mut(), facts) {
+        line.extend(facts);
+    }
+    line.to_string()
+}
