@@ -93,13 +93,26 @@ fn service_name(name: &str) -> Result<ServiceName, Cause> {
     ServiceName::new(name).map_err(|error| format!("service name {name}: {error}"))
 }
 
-/// A publisher that never waits for a subscriber, and whose memory grows with what is sent.
-pub(crate) fn publisher(service: &Bytes, expected_bytes: usize) -> Result<BytesPublisher, Cause> {
+/// How long samples may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Length {
+    /// As long as this, usually: memory grows by itself, and everyone who reads pays 300 KiB for each publisher.
+    Expected(usize),
+    /// Never longer. Memory that is not written to is not used.
+    Limit(usize),
+}
+
+/// A publisher that never waits for a subscriber.
+pub(crate) fn publisher(service: &Bytes, length: Length) -> Result<BytesPublisher, Cause> {
+    let (bytes, strategy) = match length {
+        Length::Expected(bytes) => (bytes, AllocationStrategy::PowerOfTwo),
+        Length::Limit(bytes) => (bytes, AllocationStrategy::Static),
+    };
     service
         .publisher_builder()
         .max_loaned_samples(1)
-        .initial_max_slice_len(expected_bytes)
-        .allocation_strategy(AllocationStrategy::PowerOfTwo)
+        .initial_max_slice_len(bytes)
+        .allocation_strategy(strategy)
         .backpressure_strategy(BackpressureStrategy::DiscardData)
         .create()
         .map_err(|error| format!("publisher: {error}"))

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::codec;
-use crate::iceoryx::{self, Bytes, BytesPublisher, BytesSubscriber, Island, Limits};
+use crate::iceoryx::{self, Bytes, BytesPublisher, BytesSubscriber, Island, Length, Limits};
 use crate::os::keep_descriptors_from_children;
 use crate::run_dir::RunDir;
 use crate::traffic::Traffic;
@@ -97,7 +97,7 @@ impl TapPublisher {
     fn try_create(run: &RunDir) -> Result<Self, String> {
         let limits = Limits { publishers: 1, subscribers: TAPS_MAX, buffer: LAG_MAX, overflow: true };
         let service = iceoryx::create(&iceoryx::node(run, Island::Tap)?, SERVICE, limits)?;
-        let publisher = iceoryx::publisher(&service, EXPECTED_BATCH_BYTES)?;
+        let publisher = iceoryx::publisher(&service, Length::Expected(EXPECTED_BATCH_BYTES))?;
         keep_descriptors_from_children().map_err(|error| format!("descriptors: {error}"))?;
         Ok(Self { publisher, service, batches: 0, events: 0 })
     }

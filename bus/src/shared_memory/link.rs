@@ -8,7 +8,7 @@ use super::arena::{Arena, write_answer};
 use super::control::Control;
 use super::{BUS, down_service, up_service};
 use crate::codec;
-use crate::iceoryx::{self, BytesPublisher, BytesSubscriber, Island};
+use crate::iceoryx::{self, BytesPublisher, BytesSubscriber, Island, Length};
 use crate::lockstep::{FromAuv, Link, LinkError, ToAuv};
 use crate::message::{Acted, AuvId};
 use crate::os::{Process, raise_descriptor_limit, sleep_on};
@@ -17,8 +17,8 @@ use crate::run_dir::RunDir;
 /// How long an AUV sleeps before it looks whether the channel is alive.
 const CHANNEL_CHECK: Duration = Duration::from_secs(1);
 
-/// First guess for the length of an answer; its memory grows by itself.
-const EXPECTED_ANSWER_BYTES: usize = 1024;
+/// No answer to one window is longer: thousands of ticks.
+const ANSWER_LIMIT_BYTES: usize = 4 << 20;
 
 /// One AUV's end of the `iceoryx2` transport.
 pub struct SharedMemoryLink {
@@ -53,7 +53,10 @@ impl SharedMemoryLink {
         let channel = channel.ok_or("the channel's process has ended")?;
         let node = iceoryx::node(run, Island::Agents)?;
         let down = iceoryx::subscriber(&iceoryx::open(&node, &down_service(group))?)?;
-        let up = iceoryx::publisher(&iceoryx::open(&node, &up_service(group))?, EXPECTED_ANSWER_BYTES)?;
+        let up = iceoryx::publisher(
+            &iceoryx::open(&node, &up_service(group))?,
+            Length::Limit(ANSWER_LIMIT_BYTES),
+        )?;
         let sequence = control.group_bell(group).load(Ordering::Acquire);
         control.slot(slot).dismissed.store(0, Ordering::Relaxed);
         control.slot(slot).acknowledged.store(sequence, Ordering::Relaxed);

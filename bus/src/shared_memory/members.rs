@@ -8,15 +8,15 @@ use iceoryx2::prelude::{Node, ipc};
 use super::arena::ArenaWriter;
 use super::control::Control;
 use super::{down_service, up_service};
-use crate::iceoryx::{self, BytesPublisher, BytesSubscriber, Limits};
+use crate::iceoryx::{self, BytesPublisher, BytesSubscriber, Length, Limits};
 use crate::lockstep::Loss;
 use crate::message::AuvId;
 
 /// First guess for the length of one AUV's message down; memory grows by itself.
 const EXPECTED_MESSAGE_BYTES: usize = 512;
 
-/// Samples that a buffer holds: in step there is never more than one.
-const BUFFER: usize = 2;
+/// Samples that a buffer holds: in step there is never more than one. Every connection pays for this.
+const BUFFER: usize = 1;
 
 /// What the watching thread and interrupt handles see.
 pub(super) struct Shared {
@@ -71,13 +71,13 @@ impl Group {
     /// Makes the services of the group `index`.
     pub(super) fn create(node: &Node<ipc::Service>, index: usize, members: usize) -> Result<Self, String> {
         // Ports of the dead are never cleared away within a run, so those that are restarted need some of their own.
-        let auvs = 2 * members + 8;
+        let auvs = members + members / 4 + 4;
         let limits =
             |publishers, subscribers| Limits { publishers, subscribers, buffer: BUFFER, overflow: false };
         let down = iceoryx::create(node, &down_service(index), limits(1, auvs))?;
         let up = iceoryx::create(node, &up_service(index), limits(auvs, 1))?;
         Ok(Self {
-            down: iceoryx::publisher(&down, members.max(1) * EXPECTED_MESSAGE_BYTES)?,
+            down: iceoryx::publisher(&down, Length::Expected(members.max(1) * EXPECTED_MESSAGE_BYTES))?,
             up: iceoryx::subscriber(&up)?,
             sequence: 0,
             arena: ArenaWriter::default(),
