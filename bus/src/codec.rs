@@ -4,6 +4,8 @@
 //! variants as a `u32` index, sequences and strings behind a `u64` length. Python's `struct` can read all of it.
 
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
+use bincode::enc::write::Writer;
+use bincode::error::EncodeError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -13,6 +15,9 @@ pub const FORMAT: u16 = 1;
 
 /// No message is longer, whatever its bytes claim: a bound on what a faulty sender can make the reader allocate.
 pub const MESSAGE_LIMIT_BYTES: usize = 64 << 20;
+
+/// Room for most messages, so that their buffer need not grow.
+const USUAL_MESSAGE_BYTES: usize = 1024;
 
 const CONFIG: Configuration<LittleEndian, Fixint, Limit<MESSAGE_LIMIT_BYTES>> = bincode::config::standard()
     .with_little_endian()
@@ -53,7 +58,8 @@ pub enum CodecError {
 /// # Ok::<(), shoal_bus::codec::CodecError>(())
 /// ```
 pub fn encode<T: Serialize>(message: &T) -> Result<Vec<u8>, CodecError> {
-    let mut bytes = FORMAT.to_le_bytes().to_vec();
+    let mut bytes = Vec::with_capacity(USUAL_MESSAGE_BYTES);
+    bytes.extend(FORMAT.to_le_bytes());
     encode_bare_into(message, &mut bytes)?;
     Ok(bytes)
 }
@@ -76,7 +82,15 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, CodecError> {
 
 /// Appends `message` to `bytes` without a version: the canonical bytes that a digest hashes.
 pub fn encode_bare_into<T: Serialize>(message: &T, bytes: &mut Vec<u8>) -> Result<(), CodecError> {
-    let encoded = bincode::serde::encode_to_vec(message, CONFIG)?;
-    bytes.extend_from_slice(&encoded);
-    Ok(())
+    Ok(bincode::serde::encode_into_writer(message, Appending(bytes), CONFIG)?)
+}
+
+/// Writes at the end of a buffer.
+struct Appending<'a>(&'a mut Vec<u8>);
+
+impl Writer for Appending<'_> {
+    fn write(&mut self, bytes: &[u8]) -> Result<(), EncodeError> {
+        self.0.extend_from_slice(bytes);
+        Ok(())
+    }
 }

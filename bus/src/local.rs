@@ -28,7 +28,12 @@ impl<M: Mind, F: Fn(&Born) -> M> Fleet for Local<M, F> {
         Ok(Vec::new())
     }
 
-    fn exchange(&mut self, sensed: &[Batch<Sensed>]) -> Result<Answers, FleetError> {
+    fn exchange(
+        &mut self,
+        sensed: &[Batch<Sensed>],
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        meanwhile();
         let mut answers = Answers::default();
         for batch in sensed {
             let Some(mind) = self.minds.get_mut(batch.auv.0 as usize).and_then(Option::as_mut) else {

@@ -40,8 +40,13 @@ pub trait Fleet {
     /// answer are returned as losses.
     fn born(&mut self, born: &[Born]) -> Result<Vec<Loss>, FleetError>;
 
-    /// Sends the batches (sorted by AUV) and gathers the answers. An AUV without a batch stays asleep.
-    fn exchange(&mut self, sensed: &[Batch<Sensed>]) -> Result<Answers, FleetError>;
+    /// Sends the batches (sorted by AUV) and gathers the answers. An AUV without a batch stays asleep. `meanwhile` is called
+    /// once, when all is sent and the AUVs are at work.
+    fn exchange(
+        &mut self,
+        sensed: &[Batch<Sensed>],
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError>;
 
     /// Tells every AUV that the run is over.
     fn end(&mut self);

@@ -17,7 +17,10 @@
 //! All integers are little-endian. Scaling by a power of two is exact in binary floating point, floor and ceiling are too,
 //! so the decoded intervals always hold the encoded ones.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+
+use serde::de::{self, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
 use crate::message::{AuvId, Bounds, BoundsBox};
@@ -29,10 +32,73 @@ const VERSION: u8 = 1;
 const TIME_UNIT_EXPONENT: i32 = -20;
 const EXPONENTS: std::ops::RangeInclusive<i32> = -60..=60;
 
-/// The bytes that a modem carries. May hold anything: decode before you believe.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Frame(pub Vec<u8>);
+/// Longest frame that any modem carries.
+pub const FRAME_BYTES_MAX: usize = 64;
+
+/// The bytes that a modem carries, at most [`FRAME_BYTES_MAX`]. May hold anything: decode before you believe.
+#[derive(Clone, Copy)]
+pub struct Frame {
+    length: u8,
+    bytes: [u8; FRAME_BYTES_MAX],
+}
+
+impl Frame {
+    /// The frame of these bytes; `None` if they are too many for any modem.
+    ///
+    /// ```
+    /// use shoal_bus::ping::Frame;
+    /// assert_eq!(Frame::new(&[1, 2, 3]).unwrap().bytes(), [1, 2, 3]);
+    /// assert!(Frame::new(&[0; 65]).is_none());
+    /// ```
+    pub fn new(of: &[u8]) -> Option<Self> {
+        let mut bytes = [0; FRAME_BYTES_MAX];
+        bytes.get_mut(..of.len())?.copy_from_slice(of);
+        Some(Self { length: of.len() as u8, bytes })
+    }
+
+    /// The bytes.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes[..usize::from(self.length)]
+    }
+}
+
+impl PartialEq for Frame {
+    fn eq(&self, other: &Self) -> bool {
+        self.bytes() == other.bytes()
+    }
+}
+
+impl Eq for Frame {}
+
+impl fmt::Debug for Frame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Frame").field(&self.bytes()).finish()
+    }
+}
+
+impl Serialize for Frame {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.bytes())
+    }
+}
+
+impl<'de> Deserialize<'de> for Frame {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Bytes;
+        impl Visitor<'_> for Bytes {
+            type Value = Frame;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "at most {FRAME_BYTES_MAX} bytes")
+            }
+
+            fn visit_bytes<E: de::Error>(self, bytes: &[u8]) -> Result<Frame, E> {
+                Frame::new(bytes).ok_or_else(|| E::invalid_length(bytes.len(), &self))
+            }
+        }
+        deserializer.deserialize_bytes(Bytes)
+    }
+}
 
 /// What a ping says: where its emitter was when it left, and how it moved.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -99,13 +165,13 @@ impl Ping {
         bytes.push(widen.width);
         position.write(3, &mut bytes);
         velocity.write(1, &mut bytes);
-        Ok(Frame(bytes))
+        Frame::new(&bytes).ok_or(FrameError::Length(bytes.len()))
     }
 
     /// Reads a frame. Any 32 bytes of the right version are some ping; whether it is true is another question.
     pub fn decode(frame: &Frame) -> Result<Self, FrameError> {
         let bytes: &[u8; FRAME_BYTES] =
-            frame.0.as_slice().try_into().map_err(|_| FrameError::Length(frame.0.len()))?;
+            frame.bytes().try_into().map_err(|_| FrameError::Length(frame.bytes().len()))?;
         let version = bytes[0] >> 5;
         if version != VERSION {
             return Err(FrameError::Version(version));
@@ -280,7 +346,7 @@ mod tests {
         let mut crowd = ping(fine, fine, moment);
         crowd.sender = AuvId(70_000);
         assert_eq!(crowd.encode(), Err(FrameError::Sender(AuvId(70_000))));
-        assert_eq!(Ping::decode(&Frame(vec![32; 3])), Err(FrameError::Length(3)));
-        assert_eq!(Ping::decode(&Frame(vec![0xff; 32])), Err(FrameError::Version(7)));
+        assert_eq!(Ping::decode(&Frame::new(&[32; 3]).unwrap()), Err(FrameError::Length(3)));
+        assert_eq!(Ping::decode(&Frame::new(&[0xff; 32]).unwrap()), Err(FrameError::Version(7)));
     }
 }

@@ -56,10 +56,10 @@ fn an_idle_group_sleeps_and_is_still_in_step() {
         let due = if window % 10 == 9 { 39 } else { 1 };
         let batch =
             shoal_bus::lockstep::Batch { auv: AuvId(due), items: vec![crew::sensed(AuvId(due), window)] };
-        let answers = fleet.exchange(&[batch]).unwrap();
+        let answers = fleet.exchange(&[batch], &mut || {}).unwrap();
         assert_eq!((answers.acted.len(), answers.acted[0].auv), (1, AuvId(due)));
     }
-    assert_eq!(fleet.exchange(&[]).unwrap(), shoal_bus::lockstep::Answers::default());
+    assert_eq!(fleet.exchange(&[], &mut || {}).unwrap(), shoal_bus::lockstep::Answers::default());
     drop(fleet);
     crew.disband();
 }

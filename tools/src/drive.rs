@@ -47,6 +47,20 @@ pub fn drive(
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Ending, Failure> {
     let began = Instant::now();
+    let ending = windows(channel, fleet, plan, observers, interrupted, began);
+    // The last window is still to be told, however it ended.
+    tell(channel, observers)?;
+    ending
+}
+
+fn windows(
+    channel: &mut Channel,
+    fleet: &mut dyn Fleet,
+    plan: &Plan,
+    observers: &mut [&mut dyn Observer],
+    interrupted: &dyn Fn() -> bool,
+    began: Instant,
+) -> Result<Ending, Failure> {
     while channel.now() < channel.end() {
         if interrupted() {
             return Ok(Ending::Interrupted);
@@ -54,21 +68,31 @@ pub fn drive(
         let to = (channel.now() + plan.window_ns).min(channel.end());
         keep_pace(plan.pace, began, to);
         let sensed = channel.advance(to).map_err(Failure::failed)?;
-        let answers = match fleet.exchange(&sensed) {
+        let mut told = Ok(());
+        let answers = fleet.exchange(&sensed, &mut || told = tell(channel, observers));
+        told?;
+        let answers = match answers {
             Ok(answers) => answers,
             Err(FleetError::Interrupted) => return Ok(Ending::Interrupted),
             Err(error) => return Err(Failure::failed(error)),
         };
         let loss = answers.losses.first().cloned();
-        let entries = channel.accept(answers).map_err(Failure::failed)?;
-        for observer in observers.iter_mut() {
-            observer.window(to, entries);
-        }
+        channel.accept(answers);
         if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {
             return Ok(Ending::Aborted(loss));
         }
     }
     Ok(Ending::Complete)
+}
+
+/// Tells the observers what happened in the window last accepted.
+fn tell(channel: &mut Channel, observers: &mut [&mut dyn Observer]) -> Result<(), Failure> {
+    let to = channel.accepted();
+    let entries = channel.chronicle().map_err(Failure::failed)?;
+    for observer in observers.iter_mut() {
+        observer.window(to, entries);
+    }
+    Ok(())
 }
 
 /// Waits until the wall clock has come as far as the end of the window.

@@ -46,15 +46,18 @@ pub enum ChannelError {
 
 /// The water with all its AUVs.
 ///
-/// A run alternates [`advance`](Channel::advance), which gives what the AUVs sense in a window, and
-/// [`accept`](Channel::accept), which takes what they answer and yields what happened.
+/// A run repeats [`advance`](Channel::advance), which gives what the AUVs sense in a window, [`accept`](Channel::accept),
+/// which takes what they answer, and [`chronicle`](Channel::chronicle), which tells what happened, at the latest before the
+/// next `accept`.
 pub struct Channel {
     scenario: Scenario,
     water: Water,
     vehicles: Vec<Vehicle>,
     flights: Vec<Flight>,
     now: SimTime,
-    entries: Vec<Entry>,
+    accepted: SimTime,
+    happened: Vec<Entry>,
+    chronicled: Vec<Entry>,
     flock: Flock,
     tally: Tally,
     digest: Digest,
@@ -86,7 +89,9 @@ impl Channel {
             vehicles,
             flights: Vec::new(),
             now: SimTime::ZERO,
-            entries: Vec::new(),
+            accepted: SimTime::ZERO,
+            happened: Vec::new(),
+            chronicled: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
         }
@@ -118,6 +123,11 @@ impl Channel {
         self.now
     }
 
+    /// True time up to which answers were accepted.
+    pub fn accepted(&self) -> SimTime {
+        self.accepted
+    }
+
     /// True time at which the run ends.
     pub fn end(&self) -> SimTime {
         SimTime::from_ns(self.scenario.duration_ns)
@@ -141,8 +151,9 @@ impl Channel {
         Ok(batches)
     }
 
-    /// Takes the answers to the window just advanced, checks them, and returns what happened in it, in canonical order.
-    pub fn accept(&mut self, answers: Answers) -> Result<&[Entry], ChannelError> {
+    /// Takes the answers to the window just advanced and checks them. What happened in it waits for
+    /// [`chronicle`](Channel::chronicle).
+    pub fn accept(&mut self, answers: Answers) {
         for batch in answers.acted {
             for acted in batch.items {
                 if let Err(reason) = self.answer(batch.auv, acted) {
@@ -154,10 +165,18 @@ impl Channel {
         for loss in answers.losses {
             self.lose(loss);
         }
-        self.entries = std::mem::take(&mut self.tally.window);
-        self.entries.sort_by_key(canonical_order);
-        self.digest.update(&self.entries)?;
-        Ok(&self.entries)
+        self.accepted = self.now;
+        self.happened = std::mem::take(&mut self.tally.window);
+    }
+
+    /// What happened in the window last accepted, in canonical order. It enters the digest here, apart from
+    /// [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
+    pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
+        self.chronicled.clear();
+        self.chronicled.append(&mut self.happened);
+        self.chronicled.sort_by_key(canonical_order);
+        self.digest.update(&self.chronicled)?;
+        Ok(&self.chronicled)
     }
 
     /// Takes AUVs that ended before the run began.
@@ -172,7 +191,7 @@ impl Channel {
         self.vehicles.get(auv.0 as usize).is_some_and(|vehicle| vehicle.alive)
     }
 
-    /// What the run amounts to so far.
+    /// What the run amounts to, as far as it is chronicled.
     pub fn summary(&self) -> Summary {
         let poses: Vec<_> = self.vehicles.iter().map(|vehicle| vehicle.body.at(self.now)).collect();
         let positions_m: Vec<Vec3> = poses.iter().map(|pose| pose.position_m).collect();
@@ -243,7 +262,7 @@ impl Channel {
             }
         }
         let position_m = pose.position_m.into();
-        let bytes = wavefront.frame.0.len() as u16;
+        let bytes = wavefront.frame.bytes().len() as u16;
         let fate = Fate::Emitted { position_m, bytes, box_width_m, beyond_range };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
         self.tally.check(from, at, violation);
@@ -388,7 +407,7 @@ fn validate(acted: &Acted, tick: &Tick, frame_bytes: u16) -> Result<(), String> 
         return Err(format!("it booked {} pings at one tick", acted.pings.len()));
     }
     for ping in &acted.pings {
-        let bytes = ping.frame.0.len();
+        let bytes = ping.frame.bytes().len();
         if bytes > usize::from(frame_bytes) {
             return Err(format!("it booked a ping of {bytes} bytes, its modem carries {frame_bytes}"));
         }

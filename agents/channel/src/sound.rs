@@ -145,7 +145,7 @@ mod tests {
             sequence: 0,
             emitted: SimTime::from_ns(emitted_ns),
             origin_m: Vec3::new(3.0, -2.0, -1.0),
-            frame: Frame::default(),
+            frame: Frame::new(&[]).unwrap(),
             box_width_m: 0.0,
             range_m: 1e4,
         })

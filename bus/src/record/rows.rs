@@ -128,7 +128,7 @@ impl ReportRow {
             booked: acted
                 .pings
                 .iter()
-                .map(|ping| BookedRow { at_local_ns: ping.at, frame: hexadecimal(&ping.frame.0) })
+                .map(|ping| BookedRow { at_local_ns: ping.at, frame: hexadecimal(ping.frame.bytes()) })
                 .collect(),
         }
     }

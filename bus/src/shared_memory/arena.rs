@@ -16,10 +16,6 @@ pub(super) struct ArenaWriter {
 }
 
 impl ArenaWriter {
-    pub(super) fn is_empty(&self) -> bool {
-        self.index.is_empty()
-    }
-
     pub(super) fn clear(&mut self) {
         self.index.clear();
         self.messages.clear();

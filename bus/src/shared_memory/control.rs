@@ -16,8 +16,10 @@ const MAGIC: u32 = 0x5348_4f4c;
 const LINE: usize = 16;
 
 const BELL: usize = LINE;
-const PENDING: usize = 2 * LINE;
-const GROUPS: usize = 3 * LINE;
+const GROUPS: usize = 2 * LINE;
+/// Words of one group: the bell that wakes its members, and on a line of its own what they count down.
+const GROUP: usize = 2 * LINE;
+const PENDING: usize = LINE;
 /// Words of one AUV.
 const SLOT: usize = 8;
 
@@ -46,7 +48,7 @@ pub(super) struct Slot<'a> {
 impl Control {
     /// Makes the block of `run`. `members` is (AUV, index of its group), sorted by AUV.
     pub(super) fn create(run: &RunDir, members: &[(AuvId, usize)], groups: usize) -> io::Result<Self> {
-        let words = GROUPS + groups * LINE + members.len() * SLOT;
+        let words = GROUPS + groups * GROUP + members.len() * SLOT;
         let block =
             Self { shared: SharedWords::create(&run.control_block(), words)?, groups, auvs: members.len() };
         for (index, (auv, group)) in members.iter().enumerate() {
@@ -122,7 +124,7 @@ impl Control {
 
     /// Sequence number of a group's last sample; its members sleep on it.
     pub(super) fn group_bell(&self, group: usize) -> &AtomicU32 {
-        self.word(GROUPS + group * LINE)
+        self.word(GROUPS + group * GROUP)
     }
 
     /// Moves a group's bell to `value` and wakes its members.
@@ -147,16 +149,22 @@ impl Control {
         wake_all(self.word(BELL))
     }
 
-    /// Says how many acknowledgements the window needs.
-    pub(super) fn begin_window(&self, window: u32, answers: usize) {
-        self.word(PENDING).store(window << COUNT_BITS | answers as u32, Ordering::Release);
+    /// Says how many acknowledgements of a group the window needs.
+    pub(super) fn begin_window(&self, group: usize, window: u32, answers: usize) {
+        self.pending(group).store(window << COUNT_BITS | answers as u32, Ordering::Release);
     }
 
-    /// Acknowledges sample `sequence`, and wakes the channel when this was the window's last. A hint only: a process
-    /// may die between the two, so the channel looks again by itself.
-    pub(super) fn acknowledge(&self, slot: usize, sequence: u32, window: u32) -> io::Result<()> {
+    /// Acknowledges sample `sequence`, and wakes the channel when this was the group's last of the window. A hint only: a
+    /// process may die between the two, so the channel looks again by itself.
+    pub(super) fn acknowledge(
+        &self,
+        slot: usize,
+        group: usize,
+        sequence: u32,
+        window: u32,
+    ) -> io::Result<()> {
         self.slot(slot).acknowledged.store(sequence, Ordering::Release);
-        let left = self.word(PENDING).try_update(Ordering::AcqRel, Ordering::Acquire, |pending| {
+        let left = self.pending(group).try_update(Ordering::AcqRel, Ordering::Acquire, |pending| {
             let (of, count) = (pending >> COUNT_BITS, pending & ((1 << COUNT_BITS) - 1));
             (of == window << COUNT_BITS >> COUNT_BITS && count > 0).then(|| pending - 1)
         });
@@ -166,8 +174,12 @@ impl Control {
         }
     }
 
+    fn pending(&self, group: usize) -> &AtomicU32 {
+        self.word(GROUPS + group * GROUP + PENDING)
+    }
+
     fn slot_start(&self, index: usize) -> usize {
-        GROUPS + self.groups * LINE + index * SLOT
+        GROUPS + self.groups * GROUP + index * SLOT
     }
 
     fn word(&self, at: usize) -> &AtomicU32 {

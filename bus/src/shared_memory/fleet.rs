@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use iceoryx2::prelude::{Node, ipc};
+use serde::Serialize;
 
 use super::arena::read_answer;
 use super::control::Control;
@@ -166,55 +167,74 @@ impl SharedMemoryFleet {
         }
     }
 
-    /// Sends the groups' arenas and waits until every live member has dealt with its own.
-    fn run_window(&mut self, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
+    /// Sends `messages` (of live members, sorted by member) group by group, so that the first group is at work while the next
+    /// one's are encoded. Returns for each group the live members that have yet to deal with its sample.
+    fn send<T: Serialize>(&mut self, messages: &[(usize, T)]) -> Result<Vec<Vec<usize>>, FleetError> {
         self.window = self.window.wrapping_add(1);
-        let concerned = |member: &Member| member.is_alive && !self.groups[member.group].arena.is_empty();
-        let waiting: Vec<usize> =
-            (0..self.members.len()).filter(|&index| concerned(&self.members[index])).collect();
-        self.shared.control.begin_window(self.window, waiting.len());
-        for (index, group) in self.groups.iter_mut().enumerate() {
-            if group.arena.is_empty() {
-                continue;
+        let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
+        for (at, (member, _)) in messages.iter().enumerate() {
+            of_group[self.members[*member].group].push(at);
+        }
+        let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
+        for (index, member) in self.members.iter().enumerate() {
+            if member.is_alive && !of_group[member.group].is_empty() {
+                waiting[member.group].push(index);
+            }
+        }
+        for (index, due) in of_group.iter().enumerate().filter(|(_, due)| !due.is_empty()) {
+            let group = &mut self.groups[index];
+            for (member, message) in due.iter().map(|&at| &messages[at]) {
+                let message = codec::encode(message).map_err(failed)?;
+                group.arena.push(self.members[*member].auv, &message);
             }
             group.sequence = group.sequence.wrapping_add(1);
             let sample = group.arena.finish(group.sequence, self.window);
             let sample = sample.ok_or_else(|| failed("one window holds more than 4 GiB for one group"))?;
+            self.shared.control.begin_window(index, self.window, waiting[index].len());
             iceoryx::send(&group.down, sample).map_err(failed)?;
             self.shared.control.ring_group(index, group.sequence).map_err(failed)?;
         }
+        Ok(waiting)
+    }
+
+    /// Waits until these members have dealt with their group's sample.
+    fn await_group(&mut self, waiting: Vec<usize>, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
         self.wait(waiting, losses, |fleet, index| {
             let slot = fleet.shared.control.slot(index);
             slot.acknowledged.load(Ordering::Acquire) == fleet.groups[fleet.members[index].group].sequence
         })
     }
 
-    /// Takes the answers out of the services. `due` is (member, ticks), sorted.
-    fn gather(&mut self, due: &[(usize, usize)], answers: &mut Answers) -> Result<(), FleetError> {
+    /// Takes the answers of one group out of its service. `due` is (member, ticks), sorted.
+    fn gather(
+        &mut self,
+        group: usize,
+        due: &[(usize, usize)],
+        answers: &mut Answers,
+    ) -> Result<(), FleetError> {
+        let Group { up, sequence: expected, .. } = &self.groups[group];
         let mut gathered: Vec<Option<Result<Vec<Acted>, String>>> = due.iter().map(|_| None).collect();
-        let mut has_garbage = vec![false; self.groups.len()];
-        for (index, group) in self.groups.iter().enumerate().filter(|(_, group)| !group.arena.is_empty()) {
-            while let Some(sample) = group.up.receive().map_err(failed)? {
-                let known = read_answer(sample.payload()).and_then(|(auv, sequence, message)| {
-                    let at = due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv).ok()?;
-                    Some((at, sequence, message))
-                });
-                let Some((at, sequence, message)) = known else {
-                    has_garbage[index] = true;
-                    continue;
-                };
-                let member = &self.members[due[at].0];
-                if !member.is_alive {
-                    continue;
-                }
-                if sequence != group.sequence {
-                    let (auv, expected) = (member.auv, group.sequence);
-                    return Err(failed(format_args!(
-                        "AUV {auv} answered sample {sequence} instead of {expected}"
-                    )));
-                }
-                gathered[at] = Some(read_acted(message, due[at].1));
+        let mut has_garbage = false;
+        while let Some(sample) = up.receive().map_err(failed)? {
+            let known = read_answer(sample.payload()).and_then(|(auv, sequence, message)| {
+                let at = due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv).ok()?;
+                Some((at, sequence, message))
+            });
+            let Some((at, sequence, message)) = known else {
+                has_garbage = true;
+                continue;
+            };
+            let member = &self.members[due[at].0];
+            if !member.is_alive {
+                continue;
             }
+            if sequence != *expected {
+                let auv = member.auv;
+                return Err(failed(format_args!(
+                    "AUV {auv} answered sample {sequence} instead of {expected}"
+                )));
+            }
+            gathered[at] = Some(read_acted(message, due[at].1));
         }
         for (&(index, _), acted) in due.iter().zip(gathered) {
             let member = &mut self.members[index];
@@ -227,7 +247,7 @@ impl SharedMemoryFleet {
                     continue;
                 }
                 Some(Err(reason)) => reason,
-                None if has_garbage[member.group] => NOT_A_MESSAGE.to_owned(),
+                None if has_garbage => NOT_A_MESSAGE.to_owned(),
                 None => return Err(failed(format_args!("the answer of AUV {} was lost", member.auv))),
             };
             self.shared.control.slot(index).dismissed.store(1, Ordering::Release);
@@ -257,34 +277,44 @@ impl Fleet for SharedMemoryFleet {
             // What those who were here before them left behind.
             while group.up.receive().map_err(failed)?.is_some() {}
         }
-        for (&index, born) in newborn.iter().zip(born) {
-            let member = &self.members[index];
-            if member.is_alive {
-                let message = codec::encode(&ToAuvRef::Born(born)).map_err(failed)?;
-                self.groups[member.group].arena.push(born.auv, &message);
-            }
+        let messages: Vec<(usize, ToAuvRef)> = newborn
+            .iter()
+            .zip(born)
+            .filter(|(index, _)| self.members[**index].is_alive)
+            .map(|(&index, born)| (index, ToAuvRef::Born(born)))
+            .collect();
+        for waiting in self.send(&messages)? {
+            self.await_group(waiting, &mut losses)?;
         }
-        self.run_window(&mut losses)?;
         losses.sort_by_key(|loss| loss.auv);
         Ok(losses)
     }
 
-    fn exchange(&mut self, sensed: &[Batch<Sensed>]) -> Result<Answers, FleetError> {
+    fn exchange(
+        &mut self,
+        sensed: &[Batch<Sensed>],
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
         let mut answers = Answers::default();
         self.clear();
         self.bury(&mut answers.losses);
-        let mut due = Vec::with_capacity(sensed.len());
+        let mut due: Vec<Vec<(usize, usize)>> = vec![Vec::new(); self.groups.len()];
+        let mut messages = Vec::with_capacity(sensed.len());
         for batch in sensed {
             let index = self.index(batch.auv)?;
-            let member = &self.members[index];
-            if member.is_alive {
-                let message = codec::encode(&ToAuvRef::Sensed(&batch.items)).map_err(failed)?;
-                self.groups[member.group].arena.push(batch.auv, &message);
-                due.push((index, batch.items.len()));
+            if self.members[index].is_alive {
+                messages.push((index, ToAuvRef::Sensed(&batch.items)));
+                due[self.members[index].group].push((index, batch.items.len()));
             }
         }
-        self.run_window(&mut answers.losses)?;
-        self.gather(&due, &mut answers)?;
+        let waiting = self.send(&messages)?;
+        meanwhile();
+        // In the order of sending: while one group's answers are read, the next groups are at work.
+        for (group, (waiting, due)) in waiting.into_iter().zip(due).enumerate() {
+            self.await_group(waiting, &mut answers.losses)?;
+            self.gather(group, &due, &mut answers)?;
+        }
+        answers.acted.sort_by_key(|batch| batch.auv);
         answers.losses.sort_by_key(|loss| loss.auv);
         Ok(answers)
     }
@@ -330,7 +360,7 @@ mod tests {
             fleet.shared.control.slot(index).pid.load(Ordering::Acquire) != 0
         })?;
         fleet.members[0].is_alive = true;
-        let answers = fleet.exchange(&[Batch { auv: AuvId(4), items: Vec::new() }]);
+        let answers = fleet.exchange(&[Batch { auv: AuvId(4), items: Vec::new() }], &mut || {});
         drop(fleet);
         auv.join().unwrap();
         run.remove().unwrap();

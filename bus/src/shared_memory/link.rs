@@ -120,7 +120,7 @@ impl SharedMemoryLink {
     }
 
     fn acknowledge(&self) -> Result<(), LinkError> {
-        self.control.acknowledge(self.slot, self.sequence, self.window).map_err(failed)
+        self.control.acknowledge(self.slot, self.group, self.sequence, self.window).map_err(failed)
     }
 }
 

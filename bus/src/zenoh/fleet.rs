@@ -203,7 +203,11 @@ impl Fleet for ZenohFleet {
         Ok(answers.losses)
     }
 
-    fn exchange(&mut self, sensed: &[Batch<Sensed>]) -> Result<Answers, FleetError> {
+    fn exchange(
+        &mut self,
+        sensed: &[Batch<Sensed>],
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
         let mut answers = Answers::default();
         self.bury(&mut answers)?;
         for batch in sensed {
@@ -215,6 +219,7 @@ impl Fleet for ZenohFleet {
                 member.awaits = Awaits::Answers(batch.items.len());
             }
         }
+        meanwhile();
         self.wait(&mut answers, self.stall_limit)?;
         answers.acted.sort_by_key(|batch| batch.auv);
         answers.losses.sort_by_key(|loss| loss.auv);

@@ -184,7 +184,7 @@ pub fn sensed(auv: AuvId, tick: u64) -> Sensed {
     let depth_m = Measured { value: f64::from(auv.0), error: 0.1 };
     let mut events = vec![Event { stamp, sense: Sense::Depth { depth_m } }];
     for heard in 0..(u64::from(auv.0) + tick) % 4 {
-        let frame = Frame(vec![(heard + tick) as u8; 32]);
+        let frame = Frame::new(&[(heard + tick) as u8; 32]).unwrap();
         events.push(Event { stamp, sense: Sense::Heard { frame } });
     }
     Sensed { tick, stamp, events }
@@ -208,7 +208,7 @@ pub fn digest(fleet: &mut dyn Fleet, count: u32, windows: u64) -> u64 {
 
 pub fn exchange(fleet: &mut dyn Fleet, count: u32, window: u64) -> Result<Answers, FleetError> {
     let batches: Vec<Batch<Sensed>> = auvs(count).into_iter().filter_map(|auv| batch(auv, window)).collect();
-    fleet.exchange(&batches)
+    fleet.exchange(&batches, &mut || {})
 }
 
 pub fn loss(auv: u32, reason: &str) -> Loss {

@@ -187,6 +187,6 @@ impl Noise {
     }
 
     fn frame(&mut self) -> Frame {
-        Frame((0..32).map(|_| (self.draw() * 128.0) as i8 as u8).collect())
+        Frame::new(&std::array::from_fn::<u8, 32, _>(|_| (self.draw() * 128.0) as i8 as u8)).unwrap()
     }
 }

@@ -1,0 +1,47 @@
+//! What a run leaves behind in shared memory and temporary folders, where many runs may be going on at once.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Everything in shared memory that belongs to a run that process `launcher` started.
+///
+/// A run's folder says who owns it; objects beside it carry its id. An object of a run that has no folder any more belongs
+/// to nobody else either and is counted, unless it was there `before`.
+pub fn traces_of(launcher: u32, before: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
+    let belongs = |path: &PathBuf| {
+        if before.contains(path) {
+            return false;
+        }
+        let Some(id) = run_id(path) else { return true };
+        let owner = fs::read_to_string(Path::new("/dev/shm").join(format!("shoal-{id}")).join("owner"));
+        match owner.ok().and_then(|text| text.split(' ').next()?.parse::<u32>().ok()) {
+            Some(owner) => owner == launcher,
+            // Its run is ending right now, or it has lost its folder: then it is still there a little later.
+            None => {
+                std::thread::sleep(std::time::Duration::from_millis(300));
+                path.exists() && !Path::new("/dev/shm").join(format!("shoal-{id}")).join("owner").exists()
+            }
+        }
+    };
+    shared_memory().into_iter().filter(belongs).collect()
+}
+
+/// All that has to do with runs in `/dev/shm` now.
+pub(crate) fn shared_memory() -> BTreeSet<PathBuf> {
+    let entries = fs::read_dir("/dev/shm").into_iter().flatten().flatten();
+    entries
+        .map(|entry| entry.path())
+        .filter(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            ["shoal", "iox", "iceoryx"].iter().any(|start| name.starts_with(start))
+        })
+        .collect()
+}
+
+/// The eight hexadecimal digits of `shoal-ID` and `shoal_ID_...`.
+fn run_id(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let id = name.strip_prefix("shoal-").or_else(|| name.strip_prefix("shoal_"))?.get(..8)?;
+    id.bytes().all(|byte| byte.is_ascii_hexdigit()).then(|| id.to_owned())
+}

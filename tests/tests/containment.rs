@@ -1,0 +1,107 @@
+//! No enclosure ever loses the truth, and windows never change a run: over the library and over scenarios drawn at random.
+
+use shoal_bus::summary::Summary;
+use shoal_scenario::model::{Noise, Scenario};
+use shoal_scenario::{library, parse};
+use shoal_tests::{Dice, library_scenario, random_scenario, run_local};
+
+/// Carries out `count` cases on all cores.
+fn side_by_side(count: u64, case: impl Fn(u64) + Sync) {
+    let next = std::sync::atomic::AtomicU64::new(0);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..cores {
+            scope.spawn(|| {
+                loop {
+                    let number = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                    if number >= count {
+                        return;
+                    }
+                    case(number);
+                }
+            });
+        }
+    });
+}
+
+fn random(number: u64, duration_s: f64) -> (Scenario, String) {
+    let text = random_scenario(number, duration_s);
+    let scenario = parse("random.toml", &text).unwrap_or_else(|errors| panic!("{}\n{text}", errors.render(false)));
+    (scenario, text)
+}
+
+/// How many random scenarios: a hunt for violations sets the variable `SHOAL_RANDOM_SCENARIOS`.
+fn scenarios(default: u64) -> u64 {
+    std::env::var("SHOAL_RANDOM_SCENARIOS").ok().and_then(|count| count.parse().ok()).unwrap_or(default)
+}
+
+/// Every emitted ping meets one fate at every other AUV.
+fn pings_add_up(summary: &Summary) -> bool {
+    let pings = &summary.pings;
+    let lost = &pings.lost;
+    let fates = pings.heard + lost.range + lost.noise + lost.collision + lost.half_duplex + lost.dead;
+    pings.emitted * u64::from(summary.auvs - 1) == fates + pings.in_flight
+}
+
+#[test]
+fn the_library_keeps_the_truth_in_both_moods() {
+    let cases: Vec<(String, Noise, u64)> = library()
+        .flat_map(|entry| {
+            let name = entry.name.to_owned();
+            [Noise::Uniform, Noise::Adversarial]
+                .into_iter()
+                .flat_map(move |noise| (1..=3).map({ let name = name.clone(); move |seed| (name.clone(), noise, seed) }))
+        })
+        .collect();
+    side_by_side(cases.len() as u64, |index| {
+        let (name, noise, seed) = &cases[index as usize];
+        let mut scenario = library_scenario(name);
+        let seconds = match scenario.auv_count() {
+            300.. => 2,
+            _ => 130,
+        };
+        scenario.duration_ns = scenario.duration_ns.min(seconds * 1_000_000_000);
+        scenario.noise = *noise;
+        scenario.seed = *seed;
+        let summary = run_local(&scenario, None);
+        assert_eq!(summary.containment.violations, 0, "{name} {noise:?} {seed}: {:?}", summary.containment.first);
+        assert!(summary.containment.checks >= 2 * summary.wakes, "{name}");
+        assert!(pings_add_up(&summary), "{name}: {:?}", summary.pings);
+    });
+}
+
+#[test]
+fn random_scenarios_keep_the_truth() {
+    let told = std::sync::Mutex::new([0_u64; 4]);
+    side_by_side(scenarios(400), |number| {
+        let (scenario, text) = random(number, 20.0);
+        let summary = run_local(&scenario, None);
+        let containment = &summary.containment;
+        assert_eq!(containment.violations, 0, "{:#?}\n{text}", containment.first);
+        assert!(pings_add_up(&summary), "{:?}\n{text}", summary.pings);
+        let mut told = told.lock().unwrap();
+        told[0] += containment.checks;
+        told[1] += summary.pings.heard;
+        told[2] += u64::from(summary.auvs);
+        told[3] += u64::from(summary.position_width_m.end_median < summary.position_width_m.start_median);
+    });
+    let [checks, heard, auvs, contracted] = told.into_inner().unwrap();
+    println!("{checks} checks, {heard} pings heard, {auvs} AUVs, {contracted} swarms surer at the end than at the start");
+    assert!(checks > 100_000 && heard > 10_000 && contracted > 20, "the scenarios are too dull to prove anything");
+}
+
+#[test]
+fn windows_never_change_a_random_scenario() {
+    side_by_side(scenarios(60), |number| {
+        let (scenario, text) = random(1_000_000 + number, 6.0);
+        let longest_ns = scenario.groups.iter().map(|group| shoal_scenario::window_limit_ns(group.reaction_ns, group.clock.drift_bound));
+        let longest_ns = longest_ns.min().unwrap();
+        let mut dice = Dice::new(number);
+        let drawn_ns = dice.whole(3_000_000, longest_ns as u64) as i64;
+        let reference = run_local(&scenario, None);
+        for window_ns in [longest_ns, 7_654_321, 10_000_000, drawn_ns] {
+            let other = run_local(&scenario, Some(window_ns));
+            assert!(other == reference, "{window_ns} ns: {other:#?}\n{reference:#?}\n{text}");
+        }
+    });
+}
