@@ -59,3 +59,44 @@ impl Modem {
         .encode()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn modem(first_ns: i64, period_ns: i64) -> Modem {
+        let schedule = Some(PingSchedule { first: LocalTime::from_ns(first_ns), period_ns });
+        let wake = Wake { first_tick: LocalTime::ZERO, period_ns: 100, reaction_ns: 250 };
+        Modem { auv: AuvId(0), wake, schedule, next: LocalTime::from_ns(first_ns), sequence: 0 }
+    }
+
+    /// All bookings over ticks 0, 100, ..., as (tick, ping).
+    fn bookings(mut modem: Modem) -> Vec<(i64, i64)> {
+        let mut booked = Vec::new();
+        for tick in 0..40i64 {
+            let stamp = LocalTime::from_ns(100 * tick);
+            let sensed = Sensed { tick: tick as u64, stamp, events: Vec::new() };
+            while let Some(at) = modem.due(&sensed) {
+                booked.push((stamp.ns(), at.ns()));
+            }
+        }
+        booked
+    }
+
+    #[test]
+    fn every_ping_is_booked_once_at_the_last_tick_that_may() {
+        let booked = bookings(modem(1_000, 330));
+        assert_eq!(booked[0], (700, 1_000));
+        for (index, &(tick, at)) in booked.iter().enumerate() {
+            assert_eq!(at, 1_000 + 330 * index as i64);
+            assert!((tick + 250..tick + 350).contains(&at), "ping at {at} booked at {tick}");
+        }
+        // Several pings between two ticks are all booked at the one before.
+        assert!(bookings(modem(1_000, 40)).iter().filter(|(tick, _)| *tick == 1_000).count() >= 2);
+    }
+
+    #[test]
+    fn pings_that_could_not_be_booked_are_left_out() {
+        assert_eq!(bookings(modem(10, 300))[0], (0, 310));
+    }
+}

@@ -213,3 +213,89 @@ impl Roof {
 fn rounded_up(velocity_m_s: f64) -> f64 {
     velocity_m_s + 1e-11 * (1.0 + velocity_m_s.abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use shoal_bus::message::Bounds;
+
+    use super::*;
+
+    const ACCELERATION_M_S2: f64 = 3.0;
+    const DRIFT: f64 = 0.05;
+
+    fn motion() -> Motion {
+        let none = [Bounds::new(0.0, 0.0); 3];
+        let body = BodyBounds {
+            speed_m_s: 4.0,
+            acceleration_m_s2: ACCELERATION_M_S2,
+            current_m_s: [Bounds::new(0.2, 0.3), none[1], none[2]],
+            disturbance_m_s: [Bounds::new(-0.1, 0.1); 3],
+        };
+        let clock = ClockBounds { drift: DRIFT, offset_s: none[0], stamp_ns: 2 };
+        Motion::new(&body, &clock)
+    }
+
+    fn around(value: f64, error: f64) -> IntervalBox<3> {
+        IntervalBox::from([Interval::centred(value, error), Interval::ZERO, Interval::ZERO])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+        /// A body speeds up and slows down as its bounds allow, on a clock that runs fast and slow as its bounds allow: where
+        /// it gets to, and the time it takes, are enclosed over any part of the stretch.
+        #[test]
+        fn no_admissible_motion_escapes(
+            first in -3.0..3.0_f64,
+            pushes in prop::collection::vec((-1.0..=1.0_f64, -1.0..=1.0_f64, -1.0..=1.0_f64), 64),
+            errors in (0.0..0.2_f64, 0.0..0.2_f64),
+            ends in (0usize..64, 0usize..64),
+            step_s in 0.0005..0.02_f64,
+        ) {
+            let (from, to) = (ends.0.min(ends.1), ends.0.max(ends.1) + 1);
+            let (mut velocity, mut moved_m, mut gained_s) = (first, 0.0, 0.0);
+            let mut part_m = 0.0;
+            let mut part_gain_s = 0.0;
+            for (index, &(push, rate, noise)) in pushes.iter().enumerate() {
+                // dt = ds / (1 + n)
+                let true_s = step_s / (1.0 + DRIFT * rate);
+                let change = (ACCELERATION_M_S2 * push * true_s).clamp(-4.0 - velocity, 4.0 - velocity);
+                let drift = 0.25 + 0.05 * rate + 0.1 * noise;
+                let step_m = (velocity + 0.5 * change + drift) * true_s;
+                if (from..to).contains(&index) {
+                    part_m += step_m;
+                    part_gain_s += true_s - step_s;
+                }
+                velocity += change;
+                moved_m += step_m;
+                gained_s += true_s - step_s;
+            }
+            let stretch = Stretch {
+                before_m_s: around(first, errors.0),
+                after_m_s: around(velocity, errors.1),
+                length_s: 64.0 * step_s,
+            };
+            let motion = motion();
+            let whole = motion.over(&stretch, 0.0, 64.0 * step_s);
+            prop_assert!(whole.displacement_m[0].contains(moved_m), "{moved_m} in {}", whole.displacement_m[0]);
+            prop_assert!(whole.offset_gain_s.contains(gained_s));
+            let part = motion.over(&stretch, from as f64 * step_s, to as f64 * step_s);
+            prop_assert!(part.displacement_m[0].contains(part_m), "{part_m} in {}", part.displacement_m[0]);
+            prop_assert!(part.within_m[0].contains(part_m) && part.within_m[0].contains(0.0));
+            prop_assert!(part.offset_gain_s.contains(part_gain_s));
+            let unknown_end = Stretch { after_m_s: IntervalBox::ENTIRE, ..stretch };
+            prop_assert!(motion.over(&unknown_end, 0.0, 64.0 * step_s).displacement_m[0].contains(moved_m));
+            prop_assert!(motion.velocity_after(&stretch.before_m_s, 64.0 * step_s)[0].contains(velocity));
+        }
+    }
+
+    #[test]
+    fn the_roof_is_worth_its_price() {
+        // Known 2 m/s at both ends of 0.2 s: the mean cannot be off by more than a quarter of acceleration times length.
+        let stretch = Stretch { before_m_s: around(2.0, 0.0), after_m_s: around(2.0, 0.0), length_s: 0.2 };
+        let moved = Motion { gain: Interval::ZERO, fastest: 1.0, ..motion() }.over(&stretch, 0.0, 0.2);
+        let without_drift = moved.displacement_m[0].width() - 0.2 * (0.1 + 0.2);
+        assert!((without_drift - 2.0 * 0.25 * ACCELERATION_M_S2 * 0.2 * 0.2).abs() < 1e-6, "{without_drift}");
+    }
+}

@@ -144,3 +144,80 @@ impl State {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use shoal_bus::message::{AuvId, BodyBounds, Bounds, ClockBounds};
+
+    use super::*;
+
+    fn motion() -> Motion {
+        let body = BodyBounds {
+            speed_m_s: 2.0,
+            acceleration_m_s2: 1.0,
+            current_m_s: [Bounds::default(); 3],
+            disturbance_m_s: [Bounds::default(); 3],
+        };
+        Motion::new(&body, &ClockBounds { drift: 1e-4, offset_s: Bounds::default(), stamp_ns: 2 })
+    }
+
+    fn side(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    /// A ping that left the origin at true time 10 s.
+    fn ping() -> Ping {
+        let moment = Bounds::new(10.0, 10.0);
+        Ping {
+            sender: AuvId(3),
+            sequence: 0,
+            emission_s: moment,
+            position_m: [Bounds::default(); 3],
+            velocity_m_s: [Bounds::default(); 3],
+        }
+    }
+
+    const SOUND: Sound = Sound { speed_m_s: Interval::ONE, hearing_range_m: f64::INFINITY };
+
+    fn heard(state: &State, sound: &Sound, at_s: f64) -> Result<State, Contradiction> {
+        let arrival = Moment { stamp_s: Interval::point(at_s).unwrap(), apart_s: 0.0 };
+        state.with_ping(&ping(), sound, &arrival, &motion())
+    }
+
+    #[test]
+    fn a_ping_contracts_position_and_clock_at_once() {
+        // Between 30 and 50 m east; the clock is off by up to 10 s; sound goes at 1 m/s; heard at 45 s of the own clock.
+        let state = State {
+            offset_s: side(-10.0, 10.0),
+            position_m: IntervalBox::from([side(30.0, 50.0), Interval::ZERO, Interval::ZERO]),
+        };
+        let known = heard(&state, &SOUND, 45.0).unwrap();
+        // Travel time is 25 to 45 s, and 30 to 50 m at 1 m/s: 30 to 45 of both.
+        assert!(
+            (known.position_m[0].lower() - 30.0).abs() < 1e-6
+                && (known.position_m[0].upper() - 45.0).abs() < 1e-6
+        );
+        assert!((known.offset_s.lower() + 5.0).abs() < 1e-6 && (known.offset_s.upper() - 10.0).abs() < 1e-6);
+        assert!(known.is_tighter_than(&state));
+    }
+
+    #[test]
+    fn what_is_heard_is_near() {
+        let anywhere =
+            State { offset_s: side(-1e3, 1e3), position_m: IntervalBox::from([side(-1e4, 1e4); 3]) };
+        let sound = Sound { hearing_range_m: 5.0, ..SOUND };
+        let known = heard(&anywhere, &sound, 45.0).unwrap();
+        assert!(known.position_m.width() < 10.001 && known.offset_s.width() < 5.001);
+    }
+
+    #[test]
+    fn a_contradiction_names_its_culprit() {
+        let state = State {
+            offset_s: Interval::ZERO,
+            position_m: IntervalBox::from([side(300.0, 301.0), Interval::ZERO, Interval::ZERO]),
+        };
+        assert_eq!(heard(&state, &SOUND, 45.0).unwrap_err(), Contradiction(Culprit::Ping(AuvId(3))));
+        let deep = Measured { value: 7.0, error: 0.5 };
+        assert_eq!(state.with_depth(deep).unwrap_err(), Contradiction(Culprit::Depth));
+    }
+}
