@@ -68,6 +68,8 @@ pub struct Segment {
     pub acceleration_m_s2: Vec3,
     water_velocity_m_s: Vec3,
     attitude: Attitude,
+    /// Attitude and velocity through the water at the next knot, unless a setpoint takes effect before.
+    planned: (SimTime, Attitude, Vec3),
 }
 
 impl Segment {
@@ -136,7 +138,7 @@ impl Body {
             segments: VecDeque::new(),
             shift: None,
         };
-        body.begin(SimTime::ZERO, position_m, attitude);
+        body.begin(SimTime::ZERO, position_m, attitude, attitude.velocity_m_s());
         body
     }
 
@@ -175,13 +177,18 @@ impl Body {
     /// Integrates until the remembered motion reaches `to`.
     pub fn integrate(&mut self, to: SimTime) {
         while let Some(&last) = self.segments.back().filter(|last| last.end < to) {
-            let pose = pose_at(&last, last.end);
-            let mut position_m = pose.position_m;
+            let mut position_m = last.position_after(last.elapsed_s(last.end));
             if self.shift.is_some_and(|at| at <= last.end) {
                 self.shift = None;
                 position_m.x += 1.0;
             }
-            self.begin(last.end, position_m, pose.attitude);
+            let (planned_end, attitude, velocity_m_s) = last.planned;
+            if last.end == planned_end {
+                self.begin(last.end, position_m, attitude, velocity_m_s);
+            } else {
+                let pose = pose_at(&last, last.end);
+                self.begin(last.end, position_m, pose.attitude, pose.water_velocity_m_s);
+            }
         }
     }
 
@@ -208,7 +215,7 @@ impl Body {
     }
 
     /// Starts a stretch at `start`, up to the next knot or setpoint.
-    fn begin(&mut self, start: SimTime, position_m: Vec3, attitude: Attitude) {
+    fn begin(&mut self, start: SimTime, position_m: Vec3, attitude: Attitude, water_velocity_m_s: Vec3) {
         while let Some(&(at, velocity_m_s)) = self.setpoints.front().filter(|(at, _)| *at <= start) {
             debug_assert_eq!(at, start, "a setpoint took effect inside a stretch");
             self.goal = self.feasible(&velocity_m_s);
@@ -221,9 +228,9 @@ impl Body {
         }
         let planned_end = SimTime::from_ns((knot + 1) * self.knot_ns);
         let seconds = (planned_end - start) as f64 * 1e-9;
-        let water_velocity_m_s = attitude.velocity_m_s();
-        let next = self.turn_towards_goal(&attitude, seconds).velocity_m_s();
-        let acceleration_m_s2 = (next - water_velocity_m_s) / seconds;
+        let next = self.turn_towards_goal(&attitude, seconds);
+        let next_velocity_m_s = if next == attitude { water_velocity_m_s } else { next.velocity_m_s() };
+        let acceleration_m_s2 = (next_velocity_m_s - water_velocity_m_s) / seconds;
         let end = self.setpoints.front().map_or(planned_end, |&(at, _)| at.min(planned_end));
         self.segments.push_back(Segment {
             start,
@@ -233,6 +240,7 @@ impl Body {
             acceleration_m_s2,
             water_velocity_m_s,
             attitude,
+            planned: (planned_end, next, next_velocity_m_s),
         });
     }
 
