@@ -100,7 +100,7 @@ pub struct RunArgs {
     #[arg(long)]
     pub noise: Option<String>,
     /// `max`, or simulated seconds per second of wall clock: 1 is real time
-    #[arg(long, default_value = "max", value_parser = parse_pace)]
+    #[arg(long, default_value = "max", value_parser = parse_pace, allow_negative_numbers = true)]
     pub pace: Pace,
     /// Write a record (MCAP) of the run
     #[arg(long, value_name = "FILE")]

@@ -18,7 +18,7 @@ pub fn list(name: Option<&str>, as_json: bool) -> Result<Exit, Failure> {
         for entry in library() {
             let scenario =
                 parse(entry.name, entry.text).map_err(|errors| Failure::rendered(errors.render(false)))?;
-            let (auvs, duration_s) = (scenario.auv_count(), scenario.duration_ns as f64 * 1e-9);
+            let (auvs, duration_s) = (scenario.auv_count(), scenario.duration_ns as f64 / 1e9);
             text += &if as_json {
                 let line = json!({
                     "format": "shoal.scenario/1",
@@ -54,7 +54,7 @@ pub fn check(names: &[String]) -> Result<Exit, Failure> {
                     let (auvs, groups) = (scenario.auv_count(), scenario.groups.len());
                     println!(
                         "{source_name}: good: {auvs} AUVs in {groups} groups, {} s",
-                        scenario.duration_ns as f64 * 1e-9
+                        scenario.duration_ns as f64 / 1e9
                     );
                 }
             },
