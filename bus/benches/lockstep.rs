@@ -45,7 +45,7 @@ fn measure(bus: &str, count: u32, start: impl Fn(&mut Crew) -> Box<dyn Fleet>) {
     while since.elapsed() < MEASURED {
         let one = |auv| Batch { auv, items: vec![crew::sensed(auv, windows)] };
         let batches: Vec<Batch<Sensed>> = crew::auvs(count).into_iter().map(one).collect();
-        let answers = fleet.exchange(&batches).expect("all answer");
+        let answers = fleet.exchange(&batches, &mut || {}).expect("all answer");
         assert_eq!(answers.acted.len(), count as usize);
         windows += 1;
     }

@@ -15,6 +15,8 @@ use crate::{AUVS_MAX, TABLES_MAX};
 const ON_CRASH: &[(&str, OnCrash)] = &[("drift", OnCrash::Drift), ("abort", OnCrash::Abort)];
 const WINDOW_DEFAULT_NS: i64 = 90_000_000;
 const KNOT_DEFAULT_NS: i64 = 10_000_000;
+/// Below this, the rounding of a step would no longer be small beside the step.
+const KNOT_MIN_NS: i64 = 100_000;
 const MS_NS: i64 = 1_000_000;
 /// Sound must be faster than this many times the fastest body: the reception of a ping is then unique, and soon found.
 const SOUND_OVER_BODY: f64 = 2.0;
@@ -71,7 +73,7 @@ fn read(table: Table<'_>) -> Option<Scenario> {
     let source = table.text("source", Some(""));
     let seed = table.whole("seed", Some(1), 0, u64::MAX);
     let duration_ns = table.time_ns("duration_s", None, 1);
-    let knot_ns = table.time_ns("knot_ms", Some(KNOT_DEFAULT_NS), 1);
+    let knot_ns = table.time_ns("knot_ms", Some(KNOT_DEFAULT_NS), KNOT_MIN_NS);
     let noise = table.choice("noise", Noise::NAMES, Noise::Uniform);
     let on_crash = table.choice("on_crash", ON_CRASH, OnCrash::Drift);
     let environment = environment(&table);
@@ -166,7 +168,7 @@ fn auv_count(table: &Table<'_>, groups: &[GroupRead]) -> Option<u32> {
 fn sound_outruns_bodies(table: &Table<'_>, environment: Option<&Environment>, groups: &[GroupRead]) {
     let Some(environment) = environment else { return };
     let fastest = groups.iter().filter_map(|read| read.fastest_m_s).fold(0.0, f64::max);
-    let body_m_s = fastest + norm(environment.current_m_s);
+    let body_m_s = fastest + norm(environment.current_m_s) + norm(environment.current_error_m_s);
     let sound_m_s = environment.sound_speed_m_s - environment.sound_speed_error_m_s;
     if sound_m_s < SOUND_OVER_BODY * body_m_s {
         let inside = table.table("environment", "[environment]");

@@ -6,7 +6,7 @@ use crate::body::Catalogue;
 use crate::environment::norm;
 use crate::model::{AuvSabotage, Clock, Environment, Group, Kind};
 use crate::reader::Table;
-use crate::sensing::{PERIOD_MIN_NS, modem, sensors};
+use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS, modem, sensors};
 use crate::start::start;
 use crate::steering::{Surroundings, controller, estimator};
 use crate::{AUVS_MAX, window_limit_ns};
@@ -84,6 +84,15 @@ fn control_period(table: &Table<'_>) -> Option<i64> {
             "an AUV wakes at most a thousand times a second",
             "shorter than 0.001 s",
             "write `control_period_s = 0.001` or more",
+        );
+        return None;
+    }
+    if period_ns > PERIOD_MAX_NS {
+        table.refuse(
+            "control_period_s",
+            "an AUV wakes at least every 1000 s",
+            "longer than 1000 s",
+            "write `control_period_s = 1000` or less",
         );
         return None;
     }

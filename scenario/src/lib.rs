@@ -31,7 +31,7 @@
 //! | `seed` | | 1 | seed of every random draw |
 //! | `duration_s` | s | needed | simulated time |
 //! | `window_ms` | ms | 90, or the largest whole ms allowed | true time per lockstep window; never changes the result |
-//! | `knot_ms` | ms | 10 | between knots of true trajectories and clocks |
+//! | `knot_ms` | ms | 10 | between knots of true trajectories and clocks; 0.1 at least |
 //! | `noise` | | `"uniform"` | errors are drawn `"uniform"` inside their bounds, or `"adversarial"`: always at one |
 //! | `on_crash` | | `"drift"` | when an AUV's process ends, its body will `"drift"` on, or the run will `"abort"` |
 //! | **`[environment]`** | | needed | |
@@ -59,7 +59,7 @@
 //! | `count` | | needed | how many; [`AUVS_MAX`] in all |
 //! | `kind` | | `"lauv"` | body: one of [`presets::KINDS`], of one's own, or a table |
 //! | `clock` | | `"tcxo"` | clock: one of [`presets::CLOCKS`], of one's own, or a table |
-//! | `control_period_s` | s | 0.1 | between control ticks, in local time; 0.001 at least |
+//! | `control_period_s` | s | 0.1 | between control ticks, in local time; 0.001 to 1000 |
 //! | `reaction_s` | s | 0.1 | from a tick to when its answer takes effect, in local time |
 //! | `estimator` | | `"tube"` | name, or table with `name` |
 //! | `estimator.horizon_s` | s | 10 | past that the tube keeps, in local time |

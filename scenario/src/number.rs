@@ -24,6 +24,9 @@ pub(crate) enum Rule {
     UpToRightAngle,
 }
 
+/// No length, speed or error that makes sense is larger, and arithmetic beyond would eat into the error bounds.
+const MAGNITUDE_MAX: f64 = 1e7;
+
 impl Rule {
     fn broken_by(self, value: f64) -> Option<String> {
         let kept = match self {
@@ -35,6 +38,9 @@ impl Rule {
         };
         if !value.is_finite() {
             return Some("a finite number".into());
+        }
+        if value.abs() > MAGNITUDE_MAX {
+            return Some("within 10,000,000 of zero".into());
         }
         (!kept).then(|| match self {
             Rule::Finite => "a finite number".into(),

@@ -10,6 +10,8 @@ use crate::reader::Table;
 const PING_BYTES: u64 = 32;
 /// Fastest that anything periodic on an AUV may happen.
 pub(crate) const PERIOD_MIN_NS: i64 = 1_000_000;
+/// Slowest that an AUV may wake.
+pub(crate) const PERIOD_MAX_NS: i64 = 1_000_000_000_000;
 const SECOND_NS: i64 = 1_000_000_000;
 
 pub(crate) fn sensors(group: &Table<'_>) -> Option<Sensors> {

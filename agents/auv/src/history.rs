@@ -5,10 +5,12 @@ use shoal_interval::IntervalBox;
 use shoal_tube::Tube;
 
 use crate::state::State;
+use crate::tube_estimator::seconds;
 
-/// The tube of (clock offset, x, y, z) over local time, a slice a tick.
+/// The tube of (clock offset, x, y, z) over the local time since birth, a slice a tick.
 #[derive(Debug)]
 pub struct History {
+    birth: LocalTime,
     tube: Tube<IntervalBox<4>>,
     horizon_ns: i64,
 }
@@ -16,9 +18,9 @@ pub struct History {
 impl History {
     /// The tube that begins at birth.
     pub fn new(birth: LocalTime, state: &State, horizon_ns: i64) -> Self {
-        let tube = Tube::starting_at(birth.as_s(), as_box(state));
-        // Whole nanoseconds are finite seconds, the only thing that a tube asks of its start.
-        Self { tube: tube.expect("a local time is finite"), horizon_ns }
+        // Zero is finite, the only thing that a tube asks of its start.
+        let tube = Tube::starting_at(0.0, as_box(state)).expect("zero is a time");
+        Self { birth, tube, horizon_ns }
     }
 
     /// The state at the end of what is remembered.
@@ -33,8 +35,11 @@ impl History {
     /// When `stamp` is not after the end: the channel's ticks are a period apart, so that is a bug, and no state may grow
     /// out of it.
     pub fn append(&mut self, stamp: LocalTime, slice: &State, state: &State) {
-        self.tube.append(stamp.as_s(), as_box(slice), as_box(state)).expect("ticks come in order");
-        self.tube.drop_before((stamp + -self.horizon_ns).as_s());
+        // Since birth, because the clock itself may read so much that nanoseconds vanish in a double.
+        let age_ns = stamp - self.birth;
+        let slice = as_box(slice);
+        self.tube.append(seconds(age_ns), slice, as_box(state)).expect("ticks come in order");
+        self.tube.drop_before(seconds(age_ns.saturating_sub(self.horizon_ns)));
     }
 }
 

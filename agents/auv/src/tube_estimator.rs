@@ -165,6 +165,6 @@ fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> 
 }
 
 /// Seconds of a difference of stamps; exact below 104 days, where nanoseconds are whole doubles, but for the last bit.
-fn seconds(ns: i64) -> f64 {
+pub(crate) fn seconds(ns: i64) -> f64 {
     ns as f64 * 1e-9
 }

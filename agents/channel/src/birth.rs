@@ -12,7 +12,7 @@ use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
 use crate::body::{Attitude, Body, Vec3};
 use crate::clock::{STAMP_NS, TrueClock};
 use crate::draw::{Draws, Purpose};
-use crate::sensors::{ROUNDING, Sensors};
+use crate::sensors::{Sensors, rounding};
 use crate::sound::ARRIVAL_TOLERANCE_S;
 
 /// The id of draws that concern no vehicle.
@@ -105,7 +105,7 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
 /// True position and attitude at the start.
 fn placed(group: &Group, index: u32, draws: &mut Draws) -> (Vec3, Attitude) {
     let drawn_heading_rad = draws.between(-std::f64::consts::PI, std::f64::consts::PI);
-    let mut heading_rad = group.start.heading_rad.unwrap_or(drawn_heading_rad);
+    let mut heading_rad = group.start.heading_rad.map_or(drawn_heading_rad, first_turn);
     let mut pitch_rad = 0.0;
     let position_m = match &group.start.place {
         Place::Region(region) => Vector3::from_fn(|axis, _| draws.between(region[axis][0], region[axis][1])),
@@ -124,6 +124,12 @@ fn placed(group: &Group, index: u32, draws: &mut Draws) -> (Vec3, Attitude) {
         }
     };
     (position_m, Attitude { heading_rad, pitch_rad, speed_m_s: group.start.speed_m_s })
+}
+
+/// The same direction within the first turn, for angles of any size.
+fn first_turn(angle_rad: f64) -> f64 {
+    let (sin, cos) = f_sincos(angle_rad);
+    pxfm::f_atan2(sin, cos)
 }
 
 /// Position and velocity on the group's circle at time zero.
@@ -153,31 +159,39 @@ fn prior_box(group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
     std::array::from_fn(|axis| {
         let below_m = 0.5 * width_m + draws.error(0.5 * width_m);
         let truth_m = position_m[axis];
-        Bounds::new(truth_m - below_m - ROUNDING, truth_m - below_m + width_m + ROUNDING)
+        let slack_m = rounding(truth_m.abs() + width_m);
+        Bounds::new(truth_m - below_m - slack_m, truth_m - below_m + width_m + slack_m)
     })
 }
 
 fn body_bounds(scenario: &Scenario, group: &Group) -> BodyBounds {
     let environment = &scenario.environment;
-    let around = |value: f64, error: f64| Bounds::new(value - error - ROUNDING, value + error + ROUNDING);
+    let around = |value: f64, error: f64| {
+        let error = error + rounding(value.abs() + error);
+        Bounds::new(value - error, value + error)
+    };
+    // Each knot rounds a position as large as the area.
+    let extent_m = environment.area_m.iter().flatten().fold(0.0_f64, |extent, side| extent.max(side.abs()));
+    let knots_per_s = 1e9 / scenario.knot_ns as f64;
+    let integrator_m_s = rounding(2.0 * extent_m * (1.0 + knots_per_s));
     BodyBounds {
-        speed_m_s: group.kind.speed_max_m_s + ROUNDING,
+        speed_m_s: group.kind.speed_max_m_s + rounding(group.kind.speed_max_m_s),
         acceleration_m_s2: Body::acceleration_bound_m_s2(&group.kind),
         current_m_s: std::array::from_fn(|axis| {
             around(environment.current_m_s[axis], environment.current_error_m_s[axis])
         }),
-        disturbance_m_s: std::array::from_fn(|axis| around(0.0, group.kind.disturbance_m_s[axis])),
+        disturbance_m_s: group.kind.disturbance_m_s.map(|bound_m_s| around(0.0, bound_m_s + integrator_m_s)),
     }
 }
 
 fn modem_bounds(scenario: &Scenario, group: &Group) -> ModemBounds {
     let environment = &scenario.environment;
-    let error_m_s = environment.sound_speed_error_m_s + ROUNDING;
+    let error_m_s = environment.sound_speed_error_m_s + rounding(environment.sound_speed_m_s);
     let farthest_m =
         scenario.groups.iter().fold(0.0_f64, |farthest, group| farthest.max(group.modem.range_m));
     ModemBounds {
         range_m: group.modem.range_m,
-        hearing_range_m: farthest_m + ROUNDING,
+        hearing_range_m: farthest_m + rounding(farthest_m),
         sound_speed_m_s: Bounds::new(
             environment.sound_speed_m_s - error_m_s,
             environment.sound_speed_m_s + error_m_s,

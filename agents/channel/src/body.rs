@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
-use pxfm::{f_asin, f_atan2, f_sincos};
+use pxfm::{f_atan2, f_sincos};
 use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_scenario::model::{Kind, Noise};
@@ -47,7 +47,7 @@ impl Attitude {
         }
         Self {
             heading_rad: f_atan2(velocity_m_s.y, velocity_m_s.x),
-            pitch_rad: f_asin((velocity_m_s.z / speed_m_s).clamp(-1.0, 1.0)),
+            pitch_rad: f_atan2(velocity_m_s.z, velocity_m_s.xy().norm()),
             speed_m_s,
         }
     }
@@ -76,6 +76,11 @@ impl Segment {
     /// Position `elapsed_s` seconds after the start, in metres.
     pub fn position_after(&self, elapsed_s: f64) -> Vec3 {
         self.position_m + (self.ground_velocity_m_s + self.acceleration_m_s2 * (0.5 * elapsed_s)) * elapsed_s
+    }
+
+    /// Seconds from the start to the next knot, whether or not a setpoint ends the stretch before.
+    pub fn planned_length_s(&self) -> f64 {
+        self.elapsed_s(self.planned.0)
     }
 
     fn elapsed_s(&self, t: SimTime) -> f64 {
@@ -285,15 +290,17 @@ fn pose_at(segment: &Segment, t: SimTime) -> Pose {
     }
 }
 
-/// The angle in (-pi, pi], for angles within three turns of it.
-fn wrapped(mut angle_rad: f64) -> f64 {
-    while angle_rad > PI {
-        angle_rad -= 2.0 * PI;
+/// The same direction in (-pi, pi].
+fn wrapped(angle_rad: f64) -> f64 {
+    // The remainder is exact.
+    let angle_rad = angle_rad % (2.0 * PI);
+    if angle_rad > PI {
+        angle_rad - 2.0 * PI
+    } else if angle_rad <= -PI {
+        angle_rad + 2.0 * PI
+    } else {
+        angle_rad
     }
-    while angle_rad <= -PI {
-        angle_rad += 2.0 * PI;
-    }
-    angle_rad
 }
 
 #[cfg(test)]

@@ -21,12 +21,7 @@ use crate::digest::Digest;
 use crate::flock::Flock;
 use crate::sound::{Flight, Wavefront, reach_m};
 use crate::tally::Tally;
-use crate::vehicle::{Tick, Vehicle};
-
-/// At most so many pings may be booked at one tick; more is an AUV out of its mind.
-const PINGS_PER_TICK: usize = 64;
-/// A ping may be booked at most so far ahead, in local nanoseconds.
-const BOOKING_HORIZON_NS: i64 = 3_600 * 1_000_000_000;
+use crate::vehicle::Vehicle;
 
 /// Why a run cannot go on.
 #[derive(Debug, Error)]
@@ -350,7 +345,7 @@ impl Channel {
         let Some(tick) = vehicle.answer_tick() else {
             return Err("it answered a tick that it was not asked".to_owned());
         };
-        validate(&acted, &tick, vehicle.born.modem.frame_bytes)?;
+        vehicle.validate(&acted, &tick)?;
 
         let wake = vehicle.born.wake;
         let takes_effect = tick.stamp + wake.reaction_ns;
@@ -375,7 +370,8 @@ impl Channel {
         self.tally.reported(auv, box_width(&report.position_m), report.clock_offset_s.width());
         for (index, ping) in acted.pings.iter().enumerate() {
             if ping.at < takes_effect {
-                let sequence = vehicle.emitted.wrapping_add(index as u32);
+                // It never left, so it has no number but its place in the answer.
+                let sequence = index as u32;
                 let fate = Fate::Lost { to: None, reason: LossReason::Late, range_m: 0.0 };
                 self.tally.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
             } else {
@@ -393,29 +389,6 @@ impl Channel {
         vehicle.end(self.now);
         self.tally.lost(self.now, loss.auv, &vehicle.born.name, &loss.reason);
     }
-}
-
-/// Refuses answers that no working AUV gives.
-fn validate(acted: &Acted, tick: &Tick, frame_bytes: u16) -> Result<(), String> {
-    if acted.tick != tick.index {
-        return Err(format!("it answered tick {} when asked tick {}", acted.tick, tick.index));
-    }
-    if !acted.setpoint.velocity_m_s.iter().all(|component| component.is_finite() && component.abs() < 1e6) {
-        return Err("its setpoint is not a velocity".to_owned());
-    }
-    if acted.pings.len() > PINGS_PER_TICK {
-        return Err(format!("it booked {} pings at one tick", acted.pings.len()));
-    }
-    for ping in &acted.pings {
-        let bytes = ping.frame.bytes().len();
-        if bytes > usize::from(frame_bytes) {
-            return Err(format!("it booked a ping of {bytes} bytes, its modem carries {frame_bytes}"));
-        }
-        if ping.at.ns().saturating_sub(tick.stamp.ns()) > BOOKING_HORIZON_NS {
-            return Err("it booked a ping more than an hour ahead".to_owned());
-        }
-    }
-    Ok(())
 }
 
 /// Checks a payload at its emission; also gives the width of its position box in metres.

@@ -7,8 +7,11 @@ use shoal_scenario::model::{Noise, Sensors as SensorsModel};
 use crate::body::Pose;
 use crate::draw::{Draws, Purpose};
 
-/// Added to every stated error bound: the rounding of the simulator's own arithmetic, generously.
-pub const ROUNDING: f64 = 1e-8;
+/// What is added to every stated error bound: more than the rounding of the simulator's own arithmetic, for numbers as large
+/// as `magnitude`.
+pub fn rounding(magnitude: f64) -> f64 {
+    1e-8 + 1e-15 * magnitude.abs()
+}
 
 /// One AUV's sensors.
 pub struct Sensors {
@@ -72,7 +75,7 @@ impl Sensors {
 /// The truth with a drawn error, and the bound that is stated for it.
 fn measured(draws: &mut Draws, truth: f64, bound: f64) -> Measured {
     let value = truth + draws.error(bound);
-    let error = bound + ROUNDING;
+    let error = bound + rounding(truth.abs() + bound);
     assert!(
         (value - truth).abs() < error,
         "the channel drew {value} for {truth}, outside the ±{error} it states"

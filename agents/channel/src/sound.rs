@@ -87,35 +87,57 @@ impl Flight {
             if segment.start >= horizon {
                 return None;
             }
-            let elapsed_s = self.solve(segment, sound_speed_m_s);
-            let at = segment.start + (elapsed_s * 1e9).ceil() as i64;
-            if at > segment.end {
+            let whole_s = (segment.end - segment.start) as f64 * 1e-9;
+            if self.ahead_m(segment, whole_s, sound_speed_m_s) > 0.0 {
+                // Sound has not caught up by the end of this stretch, nor will it have if the stretch is cut short.
                 continue;
             }
+            let elapsed_s = self.meet(segment, sound_speed_m_s);
+            let at = (segment.start + (elapsed_s * 1e9).ceil() as i64).min(segment.end);
             let range_m = (segment.position_after(elapsed_s) - self.wavefront.origin_m).norm();
             return (at < horizon).then_some(Arrival { at, range_m, travel_s: range_m / sound_speed_m_s });
         }
         None
     }
 
-    /// Seconds after the start of `segment` at which sound and receiver meet, were the segment endless; never negative.
-    fn solve(&self, segment: &Segment, sound_speed_m_s: f64) -> f64 {
-        let sound_ahead_s = (segment.start - self.wavefront.emitted) as f64 * 1e-9;
+    /// By how many metres the receiver is ahead of the wavefront, `elapsed_s` seconds after the start of `segment`. Falls
+    /// strictly, because bodies are slower than sound.
+    fn ahead_m(&self, segment: &Segment, elapsed_s: f64, sound_speed_m_s: f64) -> f64 {
+        let sound_s = (segment.start - self.wavefront.emitted) as f64 * 1e-9 + elapsed_s;
+        (segment.position_after(elapsed_s) - self.wavefront.origin_m).norm() - sound_speed_m_s * sound_s
+    }
+
+    /// Seconds after the start of `segment` at which sound and receiver meet, which is before its end.
+    ///
+    /// The search spans the stretch as it was planned: a setpoint that is decided later must not change the last bits.
+    fn meet(&self, segment: &Segment, sound_speed_m_s: f64) -> f64 {
+        if self.ahead_m(segment, 0.0, sound_speed_m_s) <= 0.0 {
+            return 0.0;
+        }
+        let (mut before_s, mut after_s) = (0.0, segment.planned_length_s());
         let mut elapsed_s = 0.0;
-        // Newton's steps shrink quadratically, by (body speed / sound speed)² or better: a handful reaches the last bits.
-        for _ in 0..60 {
+        // Newton's steps shrink quadratically, by (body speed / sound speed)² or better; one that leaves the bracket is
+        // replaced by its middle.
+        for _ in 0..100 {
+            let ahead_m = self.ahead_m(segment, elapsed_s, sound_speed_m_s);
+            if ahead_m > 0.0 {
+                before_s = elapsed_s
+            } else {
+                after_s = elapsed_s
+            }
             let ray_m = segment.position_after(elapsed_s) - self.wavefront.origin_m;
-            let distance_m = ray_m.norm();
             let velocity_m_s = segment.ground_velocity_m_s + segment.acceleration_m_s2 * elapsed_s;
-            let closing_m_s = if distance_m > 0.0 { ray_m.dot(&velocity_m_s) / distance_m } else { 0.0 };
-            let step_s = (distance_m - sound_speed_m_s * (elapsed_s + sound_ahead_s))
-                / (sound_speed_m_s - closing_m_s);
-            elapsed_s += step_s;
+            let opening_m_s = ray_m.try_normalize(0.0).map_or(0.0, |ray| ray.dot(&velocity_m_s));
+            let newton_s = elapsed_s + ahead_m / (sound_speed_m_s - opening_m_s);
+            let next_s =
+                if (before_s..=after_s).contains(&newton_s) { newton_s } else { 0.5 * (before_s + after_s) };
+            let step_s = next_s - elapsed_s;
+            elapsed_s = next_s;
             if step_s.abs() < 1e-12 {
                 break;
             }
         }
-        elapsed_s.max(0.0)
+        elapsed_s
     }
 }
 
@@ -196,6 +218,22 @@ mod tests {
             growing.forget_before(horizon);
         }
         assert_eq!(seen, Some(whole));
+    }
+
+    #[test]
+    fn slow_sound_and_a_tight_turn_are_no_trap() {
+        // The parabola of a stretch, taken seconds ahead, would outrun sound: only what happens inside it counts.
+        let mut body = body(5, Vec3::new(1_800.0, 0.0, 0.0));
+        for step in 0..600 {
+            let side = if step % 2 == 0 { 9.0 } else { -9.0 };
+            body.steer(SimTime::from_ns(step * 100_000_000), Vec3::new(-side, side, 0.0));
+        }
+        let horizon = SimTime::from_ns(60_000_000_000);
+        body.integrate(horizon);
+        let flight = wavefront(0).towards(AuvId(0), 1_797.0, 14.0, 60.0).unwrap();
+        let arrival = flight.arrival(&body, 60.0, horizon).unwrap();
+        let distance_m = (body.at(arrival.at).position_m - flight.wavefront.origin_m).norm();
+        assert!((distance_m / 60.0 - arrival.at.as_s()).abs() < 2e-9);
     }
 
     #[test]

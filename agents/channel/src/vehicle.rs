@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Born, Bounds, Event, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{Acted, Born, Bounds, Event, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 
@@ -11,6 +11,11 @@ use crate::body::{Body, Pose, Vec3};
 use crate::clock::TrueClock;
 use crate::draw::Draws;
 use crate::sensors::Sensors;
+
+/// So many pings beyond twice its schedule may wait to be emitted; more is an AUV out of its mind.
+const PINGS_OUTSTANDING: usize = 64;
+/// A ping may be booked at most so much earlier than a schedule needs, in local nanoseconds.
+const BOOKING_SLACK_NS: i64 = 60 * 1_000_000_000;
 
 /// One AUV, true through and through.
 pub struct Vehicle {
@@ -98,7 +103,37 @@ impl Vehicle {
     pub fn hear(&mut self, at: SimTime, from: u32, frame: &Frame) {
         let error_ns = (self.timestamps.error(self.timestamp_error_s) * 1e9) as i64;
         let stamp = self.clock.read(at) + error_ns;
-        self.heard.push(HeardPing { stamp, at, from, frame: frame.clone() });
+        self.heard.push(HeardPing { stamp, at, from, frame: *frame });
+    }
+
+    /// Refuses answers that no working AUV gives; the reason is a clause.
+    pub fn validate(&self, acted: &Acted, tick: &Tick) -> Result<(), String> {
+        let Born { wake, modem, orders, .. } = &self.born;
+        if acted.tick != tick.index {
+            return Err(format!("it answered tick {} when asked tick {}", acted.tick, tick.index));
+        }
+        let is_velocity = |component: &f64| component.is_finite() && component.abs() < 1e6;
+        if !acted.setpoint.velocity_m_s.iter().all(is_velocity) {
+            return Err("its setpoint is not a velocity".to_owned());
+        }
+        let ahead_ns = wake.reaction_ns + 2 * wake.period_ns;
+        let scheduled = orders.ping.map_or(0, |ping| ahead_ns / ping.period_ns) as usize;
+        if self.planned.len() + acted.pings.len() > 2 * scheduled + PINGS_OUTSTANDING {
+            return Err(format!("it booked {} pings at one tick", acted.pings.len()));
+        }
+        for ping in &acted.pings {
+            let bytes = ping.frame.bytes().len();
+            if bytes > usize::from(modem.frame_bytes) {
+                return Err(format!(
+                    "it booked a ping of {bytes} bytes, its modem carries {}",
+                    modem.frame_bytes
+                ));
+            }
+            if ping.at.ns().saturating_sub(tick.stamp.ns()) > ahead_ns + BOOKING_SLACK_NS {
+                return Err("it booked a ping far ahead of its time".to_owned());
+            }
+        }
+        Ok(())
     }
 
     /// Books a ping; `at` lies in no window already advanced.

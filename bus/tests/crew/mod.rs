@@ -111,7 +111,7 @@ impl Mind for Echo {
         let clock_offset_s = Bounds::new(0.0, self.steps as f64);
         let position_m = [Bounds::new(0.0, f64::from(self.auv.0)); 3];
         let heard = sensed.events.iter().filter_map(|event| match &event.sense {
-            Sense::Heard { frame } => Some(PlannedPing { at: event.stamp, frame: frame.clone() }),
+            Sense::Heard { frame } => Some(PlannedPing { at: event.stamp, frame: *frame }),
             _ => None,
         });
         Acted {
