@@ -142,7 +142,7 @@ fn window_ns(scenario: &Scenario, value: f64) -> Result<i64, OverrideError> {
         .unwrap_or(i64::MAX);
     if ns > limit_ns {
         return refuse(format!(
-            "a window must end before any AUV can act on what happens in it; the longest for `{}` is {} ms",
+            "a window must end before any AUV can act on what happens in it; the longest in whole ms for `{}` is {} ms",
             scenario.name,
             ms_text(limit_ns)
         ));

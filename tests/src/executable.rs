@@ -12,7 +12,6 @@ use std::thread::JoinHandle;
 
 use rustix::process::Signal;
 use serde_json::Value;
-use shoal_bus::run_dir::RunDir;
 
 use crate::process::{Process, await_that, processes_of};
 use crate::traces;
@@ -106,6 +105,13 @@ impl Command {
         self
     }
 
+    /// With more arguments, split at spaces.
+    #[must_use]
+    pub fn and(mut self, arguments: &str) -> Self {
+        self.arguments.extend(arguments.split_whitespace().map(str::to_owned));
+        self
+    }
+
     /// Starts it, with a temporary folder of its own.
     pub fn start(&self) -> Live {
         let before = traces::shared_memory();
@@ -118,7 +124,7 @@ impl Command {
             .stderr(Stdio::piped())
             .spawn()
             .expect("the executable can be started");
-        let launcher = Process::of(child.id()).expect("an unreaped child can be found");
+        let launcher = Process::ended_or_not(child.id()).expect("an unreaped child can be found");
         let output = child.stdout.take().map(read).zip(child.stderr.take().map(read));
         Live { child, launcher, children: Vec::new(), output, before, temporary }
     }
@@ -149,7 +155,14 @@ impl Finished {
     /// Itself, if it exited with `code`.
     #[track_caller]
     pub fn exited(self, code: i32) -> Self {
-        assert_eq!(self.code(), Some(code), "signal {:?}\n{}{}", self.status.signal(), self.stdout, self.stderr);
+        assert_eq!(
+            self.code(),
+            Some(code),
+            "signal {:?}\n{}{}",
+            self.status.signal(),
+            self.stdout,
+            self.stderr
+        );
         self
     }
 
@@ -184,14 +197,11 @@ impl Live {
         now
     }
 
-    /// Every child that was ever seen.
-    pub fn all_children(&self) -> &[Process] {
-        &self.children
-    }
-
     /// The process of the water, once it is there.
     pub fn channel(&mut self) -> Option<Process> {
-        self.children().into_iter().find(|child| child.arguments().get(1).is_some_and(|word| word == "channel"))
+        self.children()
+            .into_iter()
+            .find(|child| child.arguments().get(1).is_some_and(|word| word == "channel"))
     }
 
     /// The processes of the AUVs that are there, by the AUVs' ids.
@@ -202,16 +212,13 @@ impl Live {
 
     /// The id of its run, once it is there.
     pub fn run_id(&self) -> Option<String> {
-        let runs = RunDir::list();
-        let own = runs.iter().find(|run| {
-            run.description().is_ok_and(|description| description["launcher"] == self.launcher.pid)
-        });
-        own.map(|run| run.id().to_owned())
+        traces::run_of(self.launcher.pid)
     }
 
     /// Waits until the run is under way with `auvs` AUVs, which ping: a tap has heard one event. Returns its id.
     pub fn await_pings(&mut self, auvs: usize) -> String {
         await_that("all AUVs have a process", || self.auvs().len() == auvs || !self.launcher.is_alive());
+        await_that("the run has an id", || self.run_id().is_some() || !self.launcher.is_alive());
         let id = self.run_id().expect("a run in progress has an id");
         let heard = Command::new("tap --json --count 1 --wait 60 --run").with(&id).finish();
         assert_eq!(heard.succeeded().stdout.lines().count(), 1);

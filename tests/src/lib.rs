@@ -13,10 +13,10 @@ mod random_scenario;
 mod traces;
 
 pub use executable::{Command, Finished, Live, alone, shoal};
-pub use local::{Fleetless, library_scenario, run_local, run_local_watched};
+pub use local::{LocalRunError, library_scenario, run_local, run_local_watched};
 pub use process::{Process, await_that, processes_of};
 pub use random_scenario::{Dice, random_scenario};
-pub use traces::traces_of;
+pub use traces::{live_runs, traces_of};
 
 use std::path::PathBuf;
 

@@ -10,7 +10,7 @@ use shoal_channel::channel::Channel;
 use shoal_scenario::{Scenario, load, parse};
 
 /// Why a run without processes failed.
-pub type Fleetless = Box<dyn std::error::Error>;
+pub type LocalRunError = Box<dyn std::error::Error>;
 
 /// The scenario of this name from the library.
 ///
@@ -38,7 +38,7 @@ pub fn run_local_watched<M: Mind>(
     window_ns: Option<i64>,
     be_born: impl Fn(&Born) -> M,
     mut watch: impl FnMut(&Entry),
-) -> Result<Summary, Fleetless> {
+) -> Result<Summary, LocalRunError> {
     let window_ns = window_ns.unwrap_or(scenario.window_ns);
     let mut channel = Channel::new(scenario);
     let mut fleet = Local::new(be_born);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use rustix::process::{Pid, Signal, kill_process};
 
 /// Longest that anything is waited for before a test is called stuck; no result depends on it.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// One process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,8 +19,13 @@ pub struct Process {
 impl Process {
     /// The process with this number, if there is one that has not ended.
     pub fn of(pid: u32) -> Option<Self> {
-        let [state, _, started] = stat(pid)?;
-        (!matches!(state.as_str(), "Z" | "X")).then_some(())?;
+        let [state, ..] = stat(pid)?;
+        if matches!(state.as_str(), "Z" | "X") { None } else { Self::ended_or_not(pid) }
+    }
+
+    /// The process with this number, even one that has ended and waits to be reaped.
+    pub(crate) fn ended_or_not(pid: u32) -> Option<Self> {
+        let [.., started] = stat(pid)?;
         Some(Self { pid, started: started.parse().ok()? })
     }
 
@@ -66,7 +71,7 @@ pub fn processes_of(pid: u32) -> Vec<Process> {
 /// Looks until `condition` holds.
 ///
 /// # Panics
-/// When it does not within two minutes; `what` says what was expected.
+/// When it does not within a minute; `what` says what was expected.
 pub fn await_that(what: &str, mut condition: impl FnMut() -> bool) {
     let since = Instant::now();
     while !condition() {

@@ -96,12 +96,18 @@ fn write_scenario(text: &mut String, dice: &mut Dice, number: u64, duration_s: f
         fastest_m_s: (sound_speed_m_s / 4.0 - 2.0).min(12.0),
     };
     let noise = if dice.chance(0.5) { "uniform" } else { "adversarial" };
-    writeln!(text, "name = \"random-{number}\"\nseed = {number}\nduration_s = {duration_s}\nnoise = \"{noise}\"")?;
+    writeln!(
+        text,
+        "name = \"random-{number}\"\nseed = {number}\nduration_s = {duration_s}\nnoise = \"{noise}\""
+    )?;
     if dice.chance(0.3) {
         writeln!(text, "knot_ms = {}", dice.whole(1, 50))?;
     }
     let Water { side_m, depth_m, .. } = water;
-    writeln!(text, "[environment]\narea_m = [[-{side_m}, {side_m}], [-{side_m}, {side_m}], [-{depth_m}, 0]]")?;
+    writeln!(
+        text,
+        "[environment]\narea_m = [[-{side_m}, {side_m}], [-{side_m}, {side_m}], [-{depth_m}, 0]]"
+    )?;
     writeln!(text, "sound_speed_m_s = {sound_speed_m_s}")?;
     writeln!(text, "sound_speed_error_m_s = {}", dice.error(0.02 * sound_speed_m_s))?;
     let [x, y] = [dice.between(-current_m_s, current_m_s), dice.between(-current_m_s, current_m_s)];
@@ -131,7 +137,10 @@ fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, mo
     let drift = if dice.chance(0.3) { dice.between(0.0, 0.1) } else { dice.error(0.1) };
     let offset_s = if dice.chance(0.4) { 0.0 } else { dice.magnitude(1e-4, 1e4) };
     let wander = [0.0, 0.5, 1.0][dice.whole(0, 2) as usize];
-    writeln!(text, "[group.clock]\ndrift_bound = {drift}\nwander_fraction = {wander}\noffset_bound_s = {offset_s}")?;
+    writeln!(
+        text,
+        "[group.clock]\ndrift_bound = {drift}\nwander_fraction = {wander}\noffset_bound_s = {offset_s}"
+    )?;
 
     write_controller(text, dice, water, speed_m_s, turn_rate_rad_s)?;
     writeln!(text, "[group.sensors]\nheading_error_rad = {}", dice.error(0.5))?;
@@ -169,7 +178,8 @@ fn write_controller(
         0 => writeln!(text, "[group.controller]\nname = \"hold\"")?,
         1 if speed_m_s > 2.0 * current_m_s => {
             let rate_rad_s = turn_rate_rad_s * dice.between(0.2, 0.9);
-            let radius_m = ((speed_m_s - current_m_s) / rate_rad_s * dice.between(0.1, 0.9)).min(0.9 * side_m);
+            let radius_m =
+                ((speed_m_s - current_m_s) / rate_rad_s * dice.between(0.1, 0.9)).min(0.9 * side_m);
             let sign = if dice.chance(0.5) { "-" } else { "" };
             writeln!(
                 text,

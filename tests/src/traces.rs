@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::process::Process;
+
 /// Everything in shared memory that belongs to a run that process `launcher` started.
 ///
 /// A run's folder says who owns it; objects beside it carry its id. An object of a run that has no folder any more belongs
@@ -14,17 +16,34 @@ pub fn traces_of(launcher: u32, before: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
             return false;
         }
         let Some(id) = run_id(path) else { return true };
-        let owner = fs::read_to_string(Path::new("/dev/shm").join(format!("shoal-{id}")).join("owner"));
-        match owner.ok().and_then(|text| text.split(' ').next()?.parse::<u32>().ok()) {
+        match owner(&id) {
             Some(owner) => owner == launcher,
-            // Its run is ending right now, or it has lost its folder: then it is still there a little later.
+            // Its run is beginning or ending right now; or it has lost its folder, and is still there a little later.
             None => {
                 std::thread::sleep(std::time::Duration::from_millis(300));
-                path.exists() && !Path::new("/dev/shm").join(format!("shoal-{id}")).join("owner").exists()
+                path.exists() && owner(&id).is_none_or(|owner| owner == launcher)
             }
         }
     };
     shared_memory().into_iter().filter(belongs).collect()
+}
+
+/// The id of the run that process `launcher` is carrying out.
+pub(crate) fn run_of(launcher: u32) -> Option<String> {
+    let ids = shared_memory().into_iter().filter_map(|path| run_id(&path));
+    ids.into_iter().find(|id| owner(id) == Some(launcher))
+}
+
+/// The ids of all runs that are live on this host.
+pub fn live_runs() -> BTreeSet<String> {
+    let ids = shared_memory().into_iter().filter_map(|path| run_id(&path));
+    ids.filter(|id| owner(id).and_then(Process::of).is_some()).collect()
+}
+
+/// The process that a run's folder names as its owner.
+fn owner(id: &str) -> Option<u32> {
+    let text = fs::read_to_string(Path::new("/dev/shm").join(format!("shoal-{id}")).join("owner")).ok()?;
+    text.split(' ').next()?.parse().ok()
 }
 
 /// All that has to do with runs in `/dev/shm` now.

@@ -26,7 +26,8 @@ fn side_by_side(count: u64, case: impl Fn(u64) + Sync) {
 
 fn random(number: u64, duration_s: f64) -> (Scenario, String) {
     let text = random_scenario(number, duration_s);
-    let scenario = parse("random.toml", &text).unwrap_or_else(|errors| panic!("{}\n{text}", errors.render(false)));
+    let scenario =
+        parse("random.toml", &text).unwrap_or_else(|errors| panic!("{}\n{text}", errors.render(false)));
     (scenario, text)
 }
 
@@ -45,26 +46,28 @@ fn pings_add_up(summary: &Summary) -> bool {
 
 #[test]
 fn the_library_keeps_the_truth_in_both_moods() {
-    let cases: Vec<(String, Noise, u64)> = library()
-        .flat_map(|entry| {
-            let name = entry.name.to_owned();
-            [Noise::Uniform, Noise::Adversarial]
-                .into_iter()
-                .flat_map(move |noise| (1..=3).map({ let name = name.clone(); move |seed| (name.clone(), noise, seed) }))
-        })
-        .collect();
+    let mut cases = Vec::new();
+    for entry in library() {
+        for noise in [Noise::Uniform, Noise::Adversarial] {
+            cases.extend((1..=3_u64).map(|seed| (entry.name, noise, seed)));
+        }
+    }
     side_by_side(cases.len() as u64, |index| {
-        let (name, noise, seed) = &cases[index as usize];
+        let (name, noise, seed) = cases[index as usize];
         let mut scenario = library_scenario(name);
         let seconds = match scenario.auv_count() {
             300.. => 2,
             _ => 130,
         };
         scenario.duration_ns = scenario.duration_ns.min(seconds * 1_000_000_000);
-        scenario.noise = *noise;
-        scenario.seed = *seed;
+        scenario.noise = noise;
+        scenario.seed = seed;
         let summary = run_local(&scenario, None);
-        assert_eq!(summary.containment.violations, 0, "{name} {noise:?} {seed}: {:?}", summary.containment.first);
+        assert_eq!(
+            summary.containment.violations, 0,
+            "{name} {noise:?} {seed}: {:?}",
+            summary.containment.first
+        );
         assert!(summary.containment.checks >= 2 * summary.wakes, "{name}");
         assert!(pings_add_up(&summary), "{name}: {:?}", summary.pings);
     });
@@ -86,15 +89,23 @@ fn random_scenarios_keep_the_truth() {
         told[3] += u64::from(summary.position_width_m.end_median < summary.position_width_m.start_median);
     });
     let [checks, heard, auvs, contracted] = told.into_inner().unwrap();
-    println!("{checks} checks, {heard} pings heard, {auvs} AUVs, {contracted} swarms surer at the end than at the start");
-    assert!(checks > 100_000 && heard > 10_000 && contracted > 20, "the scenarios are too dull to prove anything");
+    println!(
+        "{checks} checks, {heard} pings heard, {auvs} AUVs, {contracted} swarms surer at the end than at the start"
+    );
+    assert!(
+        checks > 100_000 && heard > 10_000 && contracted > 20,
+        "the scenarios are too dull to prove anything"
+    );
 }
 
 #[test]
 fn windows_never_change_a_random_scenario() {
     side_by_side(scenarios(60), |number| {
         let (scenario, text) = random(1_000_000 + number, 6.0);
-        let longest_ns = scenario.groups.iter().map(|group| shoal_scenario::window_limit_ns(group.reaction_ns, group.clock.drift_bound));
+        let longest_ns = scenario
+            .groups
+            .iter()
+            .map(|group| shoal_scenario::window_limit_ns(group.reaction_ns, group.clock.drift_bound));
         let longest_ns = longest_ns.min().unwrap();
         let mut dice = Dice::new(number);
         let drawn_ns = dice.whole(3_000_000, longest_ns as u64) as i64;

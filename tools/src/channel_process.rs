@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use shoal_bus::lockstep::{Fleet, FleetError};
 use shoal_bus::message::AuvId;
@@ -25,20 +25,40 @@ use crate::observers::{Progress, Recorder, Tapped};
 
 /// Runs the water for the launcher at the other end of the pipes, in the folder `run`.
 pub fn run(run: &RunDir) -> Result<Exit, Failure> {
-    match serve(run) {
-        Ok(()) => Ok(Exit::Good),
+    let orphaned = Arc::new(AtomicBool::new(false));
+    let exit = match serve(run, &orphaned) {
+        Ok(()) => Exit::Good,
         Err(failure) => {
             say(&FromChannel::Failed { message: failure.message });
-            Ok(failure.exit)
+            failure.exit
         }
+    };
+    if orphaned.load(Ordering::Acquire) {
+        remove_traces(run);
+    }
+    Ok(exit)
+}
+
+/// The launcher is gone, so nobody else removes what is left of the run.
+fn remove_traces(run: &RunDir) {
+    for _ in 0..2 {
+        if let Err(error) = run.remove() {
+            eprintln!("error: what is left of run {} could not be removed: {error}", run.id());
+        }
+        // AUVs die with the launcher, but one that was just starting may have made something since.
+        std::thread::sleep(Duration::from_millis(200));
     }
 }
 
-fn serve(run: &RunDir) -> Result<(), Failure> {
+fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
     let mut lines = io::stdin().lock();
     let order = match next(&mut lines) {
         Some(ToChannel::Run(order)) => order,
-        _ => return Err(Failure::usage("`shoal channel` is started by `shoal run`")),
+        Some(_) => return Err(Failure::usage("`shoal channel` is started by `shoal run`")),
+        None => {
+            orphaned.store(true, Ordering::Release);
+            return Err(Failure::failed("the launcher ended before it said what to run"));
+        }
     };
     let scenario = order.scenario()?;
     let mut channel = Channel::new(&scenario);
@@ -48,7 +68,7 @@ fn serve(run: &RunDir) -> Result<(), Failure> {
             let mut fleet = SharedMemoryFleet::create(run, &wake_groups(&channel.wake_order()))
                 .map_err(Failure::failed)?;
             let interrupt = fleet.interrupt_handle();
-            let launched = Launched::wait(lines, run.clone(), move || interrupt.interrupt())?;
+            let launched = Launched::wait(lines, orphaned, move || interrupt.interrupt())?;
             fleet.attach_processes(&launched.processes).map_err(Failure::failed)?;
             (Box::new(fleet) as Box<dyn Fleet>, launched)
         }
@@ -57,7 +77,7 @@ fn serve(run: &RunDir) -> Result<(), Failure> {
             let auvs: Vec<AuvId> = channel.born().iter().map(|born| born.auv).collect();
             let mut fleet = ZenohFleet::create(&endpoint, run.id(), &auvs).map_err(Failure::failed)?;
             let interrupt = fleet.interrupt_handle();
-            let launched = Launched::wait(lines, run.clone(), move || interrupt.interrupt())?;
+            let launched = Launched::wait(lines, orphaned, move || interrupt.interrupt())?;
             fleet.attach_processes(&launched.processes).map_err(Failure::failed)?;
             (Box::new(fleet) as Box<dyn Fleet>, launched)
         }
@@ -146,17 +166,17 @@ struct Launched {
 }
 
 impl Launched {
-    /// Asks the launcher for the AUVs and listens to it from then on. When it says stop, or is gone, `interrupt` is called;
-    /// when it is gone, what is left of the run is removed here, because nobody else will.
+    /// Asks the launcher for the AUVs and listens to it from then on. When it says stop, or is gone (`orphaned` is set),
+    /// `interrupt` is called.
     fn wait(
         lines: io::StdinLock<'static>,
-        run: RunDir,
+        orphaned: &Arc<AtomicBool>,
         interrupt: impl Fn() + Send + 'static,
     ) -> Result<Self, Failure> {
         say(&FromChannel::Ready);
         let stop = Arc::new(AtomicBool::new(false));
         let (sender, receiver) = mpsc::channel();
-        let stopping = Arc::clone(&stop);
+        let (stopping, orphaned) = (Arc::clone(&stop), Arc::clone(orphaned));
         drop(lines);
         let listen = move || {
             let mut lines = io::stdin().lock();
@@ -173,9 +193,9 @@ impl Launched {
                     ToChannel::Run(_) => {}
                 }
             }
+            orphaned.store(true, Ordering::Release);
             stopping.store(true, Ordering::Release);
             interrupt();
-            orphaned(&run);
         };
         std::thread::Builder::new()
             .name("launcher".to_owned())
@@ -192,15 +212,6 @@ impl Launched {
 fn processes(receiver: &Receiver<Vec<u32>>) -> Result<Vec<(AuvId, u32)>, Failure> {
     let pids = receiver.recv().map_err(|_| Failure::failed("the launcher ended before the run began"))?;
     Ok((0..).map(AuvId).zip(pids).collect())
-}
-
-/// The launcher is gone: give the run a moment to write what it has, then remove its traces and end.
-fn orphaned(run: &RunDir) {
-    std::thread::sleep(std::time::Duration::from_millis(500));
-    if let Err(error) = run.remove() {
-        eprintln!("error: what is left of run {} could not be removed: {error}", run.id());
-    }
-    std::process::exit(Exit::Failed as i32);
 }
 
 fn next(lines: &mut dyn BufRead) -> Option<ToChannel> {

@@ -1,0 +1,88 @@
+//! `shoal run` really runs a process for the water and one for each AUV.
+
+use shoal_tests::{Command, await_that};
+
+#[test]
+fn a_run_is_one_process_per_auv_and_one_for_the_water() {
+    let mut live = Command::new("run six-circles --pace 20 --json").start();
+    live.await_pings(6);
+    let auvs = live.auvs();
+    assert_eq!(auvs.keys().copied().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
+    let channel = live.channel().unwrap();
+    assert_eq!(live.children().len(), 7);
+    // Each is this very executable, and knows nothing but its id and where the run is.
+    let executable = |pid: u32| std::fs::read_link(format!("/proc/{pid}/exe")).unwrap();
+    for (auv, process) in &auvs {
+        assert_eq!(executable(process.pid), executable(live.launcher().pid));
+        let arguments = process.arguments().join(" ");
+        assert!(arguments.contains(&format!("--auv {auv} ")), "{arguments}");
+        assert!(!arguments.contains("six-circles") && !arguments.contains("seed"), "{arguments}");
+    }
+    assert!(!auvs.values().any(|auv| *auv == channel));
+
+    let summary = live.finish().succeeded().json();
+    assert_eq!(summary["format"], "shoal.summary/1");
+    assert_eq!((&summary["auvs"], &summary["processes"]), (&6.into(), &7.into()));
+    assert_eq!(summary["bus"], "iceoryx2");
+    assert_eq!(summary["containment"]["violations"], 0);
+    assert!(summary["containment"]["checks"].as_u64().unwrap() > 30_000);
+    assert_eq!(summary["reproducible"], true);
+    assert_eq!(summary["sim_s"], 60.0);
+    assert!(summary["memory"]["auv_pss_kib_median"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn zenoh_has_as_many_and_local_has_none() {
+    let mut live = Command::new("run six-circles --pace 30 --bus zenoh --json").start();
+    await_that("all processes are there", || live.children().len() == 7);
+    assert_eq!(live.finish().succeeded().json()["processes"], 7);
+
+    let mut live = Command::new("run six-circles --pace 100 --bus local --json").start();
+    await_that("the run is there", || live.run_id().is_some());
+    assert!(live.children().is_empty());
+    assert_eq!(live.finish().succeeded().json()["processes"], 1);
+}
+
+#[test]
+fn the_summary_is_for_people_too() {
+    let finished = Command::new("run six-circles --quiet").finish().succeeded();
+    for expected in
+        ["six-circles, seed 7: 6 AUVs, 7 processes on iceoryx2", "0 violations", "digest", "reproducible"]
+    {
+        assert!(finished.stdout.contains(expected), "{expected}:\n{}", finished.stdout);
+    }
+}
+
+#[test]
+fn scenarios_are_listed_and_checked() {
+    let listed = Command::new("scenarios").finish().succeeded().stdout;
+    let names = ["two-circles", "six-circles", "six-auvs-3d", "swarm-3", "swarm-300", "swarm-1000"];
+    for name in names {
+        assert!(listed.lines().any(|line| line.trim_start().starts_with(name)), "{name}:\n{listed}");
+    }
+    assert_eq!(Command::new("scenarios --json").finish().succeeded().json_lines().len(), names.len());
+    Command::new("check").with(names[0]).with(names[5]).finish().succeeded();
+    // What is printed is a scenario file that runs.
+    let folder = tempfile::tempdir().unwrap();
+    let mine = folder.path().join("mine.toml");
+    std::fs::write(&mine, Command::new("scenarios swarm-3").finish().succeeded().stdout).unwrap();
+    Command::new("check").with(&mine).finish().succeeded();
+    let from_file = Command::new("run --duration 2").with(&mine).json();
+    assert_eq!(from_file["digest"], Command::new("run --duration 2 swarm-3").json()["digest"]);
+}
+
+#[test]
+fn what_cannot_be_run_is_refused_with_a_sentence() {
+    let refused = |arguments: &str, said: &str| {
+        let finished = Command::new(arguments).finish().exited(2);
+        assert!(finished.stderr.contains(said), "{arguments}:\n{}", finished.stderr);
+        assert_eq!(finished.stdout, "");
+    };
+    refused("run six-circels", "did you mean `six-circles`?");
+    refused("run six-circles --noise loud", "uniform");
+    refused("run six-circles --duration 0", "duration");
+    refused("run six-circles --auvs 0", "auvs");
+    refused("run six-circles --pace 0", "pace");
+    refused("check six-circels", "did you mean `six-circles`?");
+    refused("run", "<SCENARIO>");
+}
