@@ -134,8 +134,8 @@ pub struct Lost {
 pub struct Flock {
     /// Length of the mean unit velocity: 1 when all move alike, near 0 when each goes its own way.
     pub polarization: f64,
-    /// Least distance between two bodies over the whole run, in metres, sampled at every knot that ends a window's second;
-    /// absent for a single AUV.
+    /// Least distance between two bodies over the whole run, in metres, looked at ten times a simulated second; absent for a
+    /// single AUV.
     pub min_separation_m: Option<f64>,
     /// Pairs of bodies that came closer than their lengths allow.
     pub collisions: u64,

@@ -103,7 +103,11 @@ fn a_window_that_is_too_long_is_refused() {
         let command = Command::new("run six-circles --window").with(window_ms).with("--record").with(&record);
         let finished = command.finish().exited(2);
         assert!(finished.stderr.contains(&format!("--window-ms {window_ms}")), "{}", finished.stderr);
-        assert!(finished.stderr.contains("the longest in whole ms for `six-circles` is"), "{}", finished.stderr);
+        assert!(
+            finished.stderr.contains("the longest in whole ms for `six-circles` is"),
+            "{}",
+            finished.stderr
+        );
         assert!(!record.exists());
     }
 }

@@ -18,6 +18,10 @@ pub fn run(args: &AuvArgs) -> Result<Exit, Failure> {
         return Ok(Exit::Failed);
     }
     let auv = AuvId(args.auv);
+    // All AUVs of a run share one log, in which the launcher looks for the last words of those that it lost.
+    std::panic::set_hook(Box::new(move |panic| {
+        eprintln!("AUV {auv}: {}", panic.to_string().replace('\n', ": "));
+    }));
     let run = RunDir::open(&args.run).while_doing("open the run's folder")?;
     let joined: Result<Box<dyn Link>, LinkError> = match args.bus {
         Bus::Local => return Err(Failure::usage("the local bus has no AUV processes")),
@@ -32,7 +36,7 @@ pub fn run(args: &AuvArgs) -> Result<Exit, Failure> {
     Ok(Exit::Good)
 }
 
-/// All AUVs of a run share one log: each says who it is.
+/// The error with the name of who had it, for the common log.
 fn named(auv: AuvId, error: &LinkError) -> Failure {
     Failure { exit: Exit::Failed, message: format!("AUV {auv}: {error}") }
 }

@@ -44,6 +44,23 @@ pub enum ChannelError {
 /// A run repeats [`advance`](Channel::advance), which gives what the AUVs sense in a window, [`accept`](Channel::accept),
 /// which takes what they answer, and [`chronicle`](Channel::chronicle), which tells what happened, at the latest before the
 /// next `accept`.
+///
+/// ```
+/// use shoal_bus::lockstep::Answers;
+/// use shoal_bus::time::SimTime;
+/// use shoal_channel::channel::Channel;
+///
+/// let (source_name, text) = shoal_scenario::load("two-circles")?;
+/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?);
+/// let sensed = channel.advance(SimTime::from_ns(9_000_000))?;
+/// // Both AUVs woke a thousand times a second of their own clocks.
+/// assert_eq!(sensed.len(), 2);
+/// assert!((8..=10).contains(&sensed[0].items.len()));
+/// // Nobody answered: both bodies go on as they were.
+/// channel.accept(Answers::default());
+/// assert!(channel.chronicle()?.len() >= 2 * sensed[0].items.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Channel {
     scenario: Scenario,
     water: Water,

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Acted, Born, Bounds, Event, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{Acted, Born, Event, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 
@@ -202,11 +202,6 @@ impl Vehicle {
         let needed = if self.alive { self.last_tick_at.min(now) } else { now };
         self.body.forget_before(needed);
         self.clock.forget_before(needed);
-    }
-
-    /// The prior clock offset that it was told, in seconds.
-    pub fn prior_offset_s(&self) -> Bounds {
-        self.born.clock.offset_s
     }
 }
 
