@@ -155,8 +155,9 @@ fn carry_out(
         }
         _ => None,
     };
-    let incomplete = ending != Ending::Complete || incomplete_record.is_some();
-    Ok(FromChannel::Done(Box::new(Done { summary, incomplete, aborted })))
+    let interrupted = ending == Ending::Interrupted;
+    let record_incomplete = incomplete_record.is_some();
+    Ok(FromChannel::Done(Box::new(Done { summary, interrupted, record_incomplete, aborted })))
 }
 
 /// The AUVs' processes, and the launcher's later word.

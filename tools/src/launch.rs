@@ -72,8 +72,10 @@ pub enum FromChannel {
 pub struct Done {
     /// What it amounts to; the launcher adds what only it knows.
     pub summary: Summary,
-    /// Whether it stopped before the scenario's end, or its record is incomplete.
-    pub incomplete: bool,
+    /// Whether the user stopped it before the scenario's end.
+    pub interrupted: bool,
+    /// Whether its record is incomplete.
+    pub record_incomplete: bool,
     /// Why it was aborted, if it was.
     pub aborted: Option<String>,
 }

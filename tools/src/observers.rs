@@ -28,12 +28,10 @@ impl Recorder {
     /// Begins the record at `path`.
     pub fn create(path: &Path, scenario: &Scenario, text: &str) -> Result<Self, Failure> {
         let wrong = |error: &dyn std::fmt::Display| {
-            let path = path.display();
-            Failure::failed(format!(
-                "the record {path} cannot be written: {error}; choose another place with --record"
-            ))
+            Failure::failed(format!("{}: {error}; choose another place with --record", path.display()))
         };
-        let file = File::create(path).map_err(|error| wrong(&error))?;
+        let file =
+            File::create(path).map_err(|error| wrong(&format!("the record cannot be created: {error}")))?;
         let header = RecordHeader {
             scenario_name: scenario.name.clone(),
             seed: scenario.seed,

@@ -163,8 +163,8 @@ fn in_this_program(
         memory: Some(Memory { auv_pss_kib_median: 0, channel_rss_kib: memory::own_rss_kib() }),
         ..simulated
     };
-    let incomplete = ending != Ending::Complete || incomplete_record.is_some();
-    Ok(Done { summary, incomplete, aborted: None })
+    let interrupted = ending == Ending::Interrupted;
+    Ok(Done { summary, interrupted, record_incomplete: incomplete_record.is_some(), aborted: None })
 }
 
 fn print_summary(args: &RunArgs, done: &Done) -> Result<(), Failure> {
@@ -176,6 +176,9 @@ fn print_summary(args: &RunArgs, done: &Done) -> Result<(), Failure> {
     if let Some(aborted) = &done.aborted {
         eprintln!("error: the run was aborted: {aborted}");
     }
+    if done.interrupted {
+        eprintln!("warning: interrupted before the scenario's end");
+    }
     // Whoever closed our output does not want the summary; the exit code still tells.
     let _closed = std::io::stdout().lock().write_all(text.as_bytes());
     Ok(())
@@ -186,7 +189,7 @@ fn exit(done: &Done) -> Exit {
         Exit::Violated
     } else if done.aborted.is_some() {
         Exit::Failed
-    } else if done.incomplete || !done.summary.agents.lost.is_empty() {
+    } else if done.interrupted || done.record_incomplete || !done.summary.agents.lost.is_empty() {
         Exit::Loss
     } else {
         Exit::Good

@@ -16,12 +16,9 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
     let Summary { containment, position_width_m: position, clock_width_s: clock, pings, flock, .. } = summary;
     let bus = summary.bus.as_deref().unwrap_or("-");
     let processes = summary.processes.unwrap_or(0);
-    let plural = if processes == 1 { "process" } else { "processes" };
-    writeln!(
-        text,
-        "{}, seed {}: {} AUVs, {processes} {plural} on {bus}",
-        summary.scenario, summary.seed, summary.auvs
-    )?;
+    let auvs = counted(summary.auvs, "AUV", "AUVs");
+    let processes = counted(processes, "process", "processes");
+    writeln!(text, "{}, seed {}: {auvs}, {processes} on {bus}", summary.scenario, summary.seed)?;
     writeln!(
         text,
         "  time          {} s simulated in {:.2} s, {:.1} times real time ({:.2} s to start)",
@@ -107,6 +104,11 @@ fn describe(violation: &ViolationLine) -> String {
         },
     };
     format!("{name} (AUV {auv}) at {time_s:.3} s, {what}")
+}
+
+/// How many of what.
+fn counted(count: u32, one: &str, many: &str) -> String {
+    format!("{} {}", grouped(count.into()), if count == 1 { one } else { many })
 }
 
 /// With three digits after the point at most.
