@@ -1,7 +1,6 @@
 //! Tests of the record as a whole.
 
 mod bytes;
-mod cost;
 mod damage;
 mod outside;
 mod synthetic;
