@@ -16,12 +16,15 @@ pub struct Batch<T> {
     pub items: Vec<T>,
 }
 
+/// The reason of a loss whose process has ended; how, its parent knows.
+pub const PROCESS_ENDED: &str = "its process ended";
+
 /// An AUV that is gone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
     /// Who.
     pub auv: AuvId,
-    /// How it ended, as a clause: `killed by signal 9`, `exited with code 101: <its last words>`.
+    /// How it ended, as a clause; [`PROCESS_ENDED`] when no more is known here.
     pub reason: String,
 }
 
@@ -138,7 +141,7 @@ pub enum FleetError {
 #[derive(Debug, Error)]
 pub enum LinkError {
     /// The transport could not be set up.
-    #[error("AUV {auv} could not join the {bus} bus: {cause}")]
+    #[error("could not join the {bus} bus: {cause}")]
     Setup {
         /// Who.
         auv: AuvId,

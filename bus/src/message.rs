@@ -256,9 +256,9 @@ impl Fleetmates {
 pub enum Sabotage {
     /// The estimator believes half the stated clock drift.
     HalvedClock,
-    /// Pings carry a position box ten metres from the AUV's own.
+    /// Pings carry a position box ten metres and its own width east of where it should be.
     LyingPing,
-    /// The estimator reports an emptied set at its tenth tick.
+    /// The AUV reports an emptied set at tick 10.
     EmptySet,
 }
 
@@ -322,7 +322,7 @@ pub struct Acted {
     pub setpoint: Setpoint,
     /// Pings to emit at exact local times, not before `s_k + R`.
     pub pings: Vec<PlannedPing>,
-    /// Own beliefs at the tick: for record and tap, never for another AUV.
+    /// Own beliefs at the tick: for the check and the record, never for another AUV.
     pub report: Report,
 }
 

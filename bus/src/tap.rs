@@ -102,8 +102,11 @@ impl TapPublisher {
         Ok(Self { publisher, service, batches: 0, events: 0 })
     }
 
-    /// Publishes one window's events. Costs next to nothing while nobody listens.
+    /// Publishes one window's events, if there are any. Costs next to nothing while nobody listens.
     pub fn publish(&mut self, traffic: &[Traffic]) -> Result<(), TapError> {
+        if traffic.is_empty() {
+            return Ok(());
+        }
         if self.listeners() > 0 {
             let batch = TapBatchRef { sequence: self.batches, first: self.events, traffic };
             self.send(&TapItemRef::Batch(batch))?;

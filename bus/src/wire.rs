@@ -15,9 +15,6 @@ pub(crate) enum ToAuvRef<'a> {
     End,
 }
 
-/// Why an AUV whose process ended is lost; whoever started it may know more.
-pub(crate) const PROCESS_ENDED: &str = "its process ended";
-
 /// Why an AUV that sent garbage is lost.
 pub(crate) const NOT_A_MESSAGE: &str = "sent bytes that are not a message";
 

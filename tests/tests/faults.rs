@@ -70,7 +70,7 @@ fn on_crash_abort_ends_the_run() {
     let mut live = Command::new("run --pace 5 --json").with(&scenario).start();
     live.await_pings(6);
     live.auvs()[&2].signal(Signal::KILL);
-    let finished = live.finish().exited(1);
+    let finished = live.finish().exited(3);
     assert!(finished.stderr.contains("aborted: AUV 2 ended"), "{}", finished.stderr);
     assert!(finished.json()["sim_s"].as_f64().unwrap() < 60.0);
 }

@@ -52,7 +52,7 @@ fn remove_traces(run: &RunDir) {
 
 fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
     let mut lines = io::stdin().lock();
-    let order = match next(&mut lines) {
+    let order = match next(&mut lines).transpose()? {
         Some(ToChannel::Run(order)) => order,
         Some(_) => return Err(Failure::usage("`shoal channel` is started by `shoal run`")),
         None => {
@@ -61,6 +61,10 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
         }
     };
     let scenario = order.scenario()?;
+    let recorder = match &order.record {
+        Some(path) => Some(Recorder::create(path, &scenario, &order.text)?),
+        None => None,
+    };
     let mut channel = Channel::new(&scenario);
     let launched = match order.bus {
         Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
@@ -83,7 +87,7 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
         }
     };
     let (mut fleet, launched) = launched;
-    let outcome = carry_out(&order, &scenario, &mut channel, fleet.as_mut(), &launched, run);
+    let outcome = carry_out(&order, &scenario, &mut channel, fleet.as_mut(), recorder, &launched, run);
     fleet.end();
     drop(fleet);
     say(&outcome?);
@@ -96,13 +100,10 @@ fn carry_out(
     scenario: &Scenario,
     channel: &mut Channel,
     fleet: &mut dyn Fleet,
+    mut recorder: Option<Recorder>,
     launched: &Launched,
     run: &RunDir,
 ) -> Result<FromChannel, Failure> {
-    let mut recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
-        None => None,
-    };
     let (mut tapped, trouble) = Tapped::create(run);
     trouble.map(FromChannel::Note).iter().for_each(say);
 
@@ -181,7 +182,7 @@ impl Launched {
         drop(lines);
         let listen = move || {
             let mut lines = io::stdin().lock();
-            while let Some(word) = next(&mut lines) {
+            while let Some(Ok(word)) = next(&mut lines) {
                 match word {
                     ToChannel::Processes(pids) => {
                         // The receiver waits for exactly this.
@@ -215,10 +216,11 @@ fn processes(receiver: &Receiver<Vec<u32>>) -> Result<Vec<(AuvId, u32)>, Failure
     Ok((0..).map(AuvId).zip(pids).collect())
 }
 
-fn next(lines: &mut dyn BufRead) -> Option<ToChannel> {
+/// The launcher's next word; `None` when it is gone.
+fn next(lines: &mut dyn BufRead) -> Option<Result<ToChannel, Failure>> {
     let mut line = String::new();
     match lines.read_line(&mut line) {
-        Ok(1..) => serde_json::from_str(&line).ok(),
+        Ok(1..) => Some(serde_json::from_str(&line).while_doing("understand the launcher")),
         _ => None,
     }
 }

@@ -85,16 +85,26 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = Bus::Iceoryx2)]
     pub bus: Bus,
     /// Seed of every random draw
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Number of AUVs: scales all groups in proportion
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub auvs: Option<u32>,
     /// Simulated seconds
-    #[arg(long = "duration-s", visible_alias = "duration", value_name = "SECONDS")]
+    #[arg(
+        long = "duration-s",
+        visible_alias = "duration",
+        value_name = "SECONDS",
+        allow_negative_numbers = true
+    )]
     pub duration_s: Option<f64>,
     /// Lockstep window in milliseconds of true time; never changes the result
-    #[arg(long = "window-ms", visible_alias = "window", value_name = "MILLISECONDS")]
+    #[arg(
+        long = "window-ms",
+        visible_alias = "window",
+        value_name = "MILLISECONDS",
+        allow_negative_numbers = true
+    )]
     pub window_ms: Option<f64>,
     /// How errors are drawn inside their bounds: `uniform` or `adversarial`
     #[arg(long)]
@@ -106,7 +116,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// zenoh endpoint to listen on and connect to, such as `tcp/127.0.0.1:7447`; a private socket unless given
-    #[arg(long, value_name = "ENDPOINT")]
+    #[arg(long, value_name = "ENDPOINT", value_parser = parse_endpoint)]
     pub endpoint: Option<String>,
     /// Print the summary as one JSON line
     #[arg(long)]
@@ -128,7 +138,7 @@ pub struct TapArgs {
     #[arg(long, value_name = "N")]
     pub count: Option<u64>,
     /// Wait so many seconds for a run to begin
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
     pub wait: f64,
 }
 
@@ -186,9 +196,21 @@ pub enum Pace {
 fn parse_pace(text: &str) -> Result<Pace, String> {
     match text {
         "max" => Ok(Pace::Max),
-        _ => match text.parse::<f64>() {
-            Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(Pace::Factor(factor)),
-            _ => Err("give `max` or a positive number, such as `1` for real time".to_owned()),
-        },
+        _ => {
+            match text.parse::<f64>() {
+                Ok(factor) if (1e-6..=1e9).contains(&factor) => Ok(Pace::Factor(factor)),
+                _ => Err("give `max`, or a number from 0.000001 to 1000000000, such as `1` for real time"
+                    .to_owned()),
+            }
+        }
+    }
+}
+
+fn parse_endpoint(text: &str) -> Result<String, String> {
+    match text.split_once('/') {
+        Some(("tcp" | "unixsock-stream", address)) if !address.is_empty() => Ok(text.to_owned()),
+        _ => {
+            Err("give `tcp/ADDRESS:PORT` or `unixsock-stream/PATH`, such as `tcp/127.0.0.1:7447`".to_owned())
+        }
     }
 }

@@ -66,7 +66,7 @@ fn windows(
             return Ok(Ending::Interrupted);
         }
         let to = (channel.now() + plan.window_ns).min(channel.end());
-        keep_pace(plan.pace, began, to);
+        keep_pace(plan.pace, began, to, interrupted);
         let sensed = channel.advance(to).map_err(Failure::failed)?;
         let mut told = Ok(());
         let answers = fleet.exchange(&sensed, &mut || told = tell(channel, observers));
@@ -95,11 +95,16 @@ fn tell(channel: &mut Channel, observers: &mut [&mut dyn Observer]) -> Result<()
     Ok(())
 }
 
-/// Waits until the wall clock has come as far as the end of the window.
-fn keep_pace(pace: Pace, began: Instant, to: SimTime) {
+/// Waits until the wall clock has come as far as the end of the window, or until interrupted.
+fn keep_pace(pace: Pace, began: Instant, to: SimTime, interrupted: &dyn Fn() -> bool) {
+    const LOOK_AGAIN: Duration = Duration::from_millis(50);
     let Pace::Factor(factor) = pace else { return };
-    let due = Duration::from_secs_f64(to.as_s() / factor);
-    if let Some(early) = due.checked_sub(began.elapsed()) {
-        std::thread::sleep(early);
+    // A pace too slow to be told in seconds is one that waits for ever.
+    let due = Duration::try_from_secs_f64(to.as_s() / factor).unwrap_or(Duration::MAX);
+    while let Some(early) = due.checked_sub(began.elapsed()).filter(|early| !early.is_zero()) {
+        if interrupted() {
+            return;
+        }
+        std::thread::sleep(early.min(LOOK_AGAIN));
     }
 }

@@ -17,9 +17,13 @@ use crate::failure::{Failure, While};
 use crate::launch::{FromChannel, Order, ToChannel};
 
 /// How long processes that were told to end may take.
-const FAREWELL: Duration = Duration::from_secs(10);
+pub const FAREWELL: Duration = Duration::from_secs(10);
+/// The same when somebody is waiting for the prompt.
+pub const HASTY_FAREWELL: Duration = Duration::from_secs(2);
+/// How a process ended that did not do so in time.
+pub const KILLED_AT_THE_END: &str = "killed because it did not end when told to";
 
-/// This program's own file, under the name it was started by.
+/// This program's own file.
 fn executable() -> Result<PathBuf, Failure> {
     std::env::current_exe().while_doing("find this program's own file")
 }
@@ -32,13 +36,13 @@ fn command(exe: &PathBuf) -> Command {
 }
 
 /// The process of the water and the pipes to it.
-pub struct Channels {
+pub struct ChannelProcess {
     child: Child,
     input: Arc<Mutex<ChildStdin>>,
     output: BufReader<ChildStdout>,
 }
 
-impl Channels {
+impl ChannelProcess {
     /// Starts it and passes on interrupts to it.
     pub fn start(run: &RunDir, order: &Order, interrupted: &Arc<AtomicBool>) -> Result<Self, Failure> {
         let mut child = command(&executable()?)
@@ -83,7 +87,7 @@ impl Channels {
     }
 }
 
-impl Drop for Channels {
+impl Drop for ChannelProcess {
     fn drop(&mut self) {
         end_by(&mut self.child, Instant::now());
     }
@@ -162,12 +166,12 @@ impl Swarm {
     }
 
     /// Waits for all to end, which they have been told to, and says how each did: by its status, or in its own last words.
-    pub fn wait(&mut self) -> Vec<String> {
-        let deadline = Instant::now() + FAREWELL;
+    pub fn wait(&mut self, patience: Duration) -> Vec<String> {
+        let deadline = Instant::now() + patience;
         let statuses: Vec<_> = self.children.iter_mut().map(|child| end_by(child, deadline)).collect();
         let log = self.log.as_ref().and_then(|log| std::fs::read_to_string(log).ok()).unwrap_or_default();
         let ending = |(auv, status): (usize, Option<ExitStatus>)| {
-            let status = status.map_or_else(|| "its end is unknown".to_owned(), describe);
+            let status = status.map_or_else(|| KILLED_AT_THE_END.to_owned(), describe);
             let start = format!("AUV {auv}: ");
             match log.lines().rev().find_map(|line| line.strip_prefix(&start)) {
                 Some(words) => format!("{status}: {words}"),
@@ -201,7 +205,7 @@ fn too_many(auv: u32, count: u32, error: &std::io::Error) -> Failure {
     ))
 }
 
-/// Waits for a child until `deadline`, then kills it; its status, if it can be had.
+/// Waits for a child until `deadline`, then kills it. Its status, unless it had to be killed.
 fn end_by(child: &mut Child, deadline: Instant) -> Option<ExitStatus> {
     loop {
         match child.try_wait() {
@@ -211,7 +215,8 @@ fn end_by(child: &mut Child, deadline: Instant) -> Option<ExitStatus> {
         }
     }
     let _ended = child.kill();
-    child.wait().ok()
+    let _reaped = child.wait();
+    None
 }
 
 fn describe(status: ExitStatus) -> String {

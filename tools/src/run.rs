@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use shoal_auv::Auv;
 use shoal_bus::local::Local;
-use shoal_bus::lockstep::Fleet;
+use shoal_bus::lockstep::{Fleet, PROCESS_ENDED};
 use shoal_bus::run_dir::RunDir;
-use shoal_bus::summary::{Memory, Summary};
+use shoal_bus::summary::{LostAgent, Memory, Summary};
 use shoal_channel::channel::Channel;
 use shoal_scenario::{OnCrash, Scenario};
 
@@ -20,7 +20,7 @@ use crate::failure::{Failure, While};
 use crate::launch::{Done, FromChannel, Order};
 use crate::memory;
 use crate::observers::{Progress, Recorder, Tapped};
-use crate::processes::{Channels, Swarm};
+use crate::processes::{ChannelProcess, FAREWELL, HASTY_FAREWELL, KILLED_AT_THE_END, Swarm};
 use crate::progress::Bar;
 use crate::summary_text;
 
@@ -65,11 +65,10 @@ fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
     })
 }
 
-/// A flag that Ctrl-C and a polite kill set; a second one ends this process at once.
+/// A flag that Ctrl-C and a polite kill set.
 fn interrupts() -> std::io::Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
-        signal_hook::flag::register_conditional_shutdown(signal, Exit::Failed as i32, Arc::clone(&flag))?;
         signal_hook::flag::register(signal, Arc::clone(&flag))?;
     }
     Ok(flag)
@@ -84,7 +83,7 @@ fn in_processes(
     bar: &Bar,
 ) -> Result<Done, Failure> {
     let began = Instant::now();
-    let mut channel = Channels::start(run, order, interrupted)?;
+    let mut channel = ChannelProcess::start(run, order, interrupted)?;
     let mut swarm = Swarm::default();
     let mut startup_s = None;
     loop {
@@ -103,16 +102,29 @@ fn in_processes(
             FromChannel::Done(mut done) => {
                 done.summary.startup_s = startup_s;
                 channel.wait();
-                let endings = swarm.wait();
+                let endings = swarm.wait(if done.interrupted { HASTY_FAREWELL } else { FAREWELL });
                 for lost in &mut done.summary.agents.lost {
                     if let Some(ending) = endings.get(lost.auv as usize) {
-                        lost.reason = format!("{}; {}", ending, lost.reason);
+                        lost.reason = match lost.reason.as_str() {
+                            PROCESS_ENDED => ending.clone(),
+                            reason => format!("{reason}; {ending}"),
+                        };
+                    }
+                }
+                for (auv, ending) in endings.iter().enumerate() {
+                    if ending == KILLED_AT_THE_END && channel_lost(&done, auv).is_none() {
+                        bar.note(&format!("AUV {auv} did not end when it was told to, and was killed"));
                     }
                 }
                 return Ok(*done);
             }
         }
     }
+}
+
+/// What the summary says of the loss of this AUV, if it was lost.
+fn channel_lost(done: &Done, auv: usize) -> Option<&LostAgent> {
+    done.summary.agents.lost.iter().find(|lost| lost.auv as usize == auv)
 }
 
 /// No processes: the reference.
@@ -124,14 +136,14 @@ fn in_this_program(
     bar: &Bar,
 ) -> Result<Done, Failure> {
     let began = Instant::now();
-    let mut channel = Channel::new(scenario);
-    let mut fleet = Local::new(Auv::new);
-    let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
-    channel.stillborn(losses);
     let mut recorder = match &order.record {
         Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
         None => None,
     };
+    let mut channel = Channel::new(scenario);
+    let mut fleet = Local::new(Auv::new);
+    let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
+    channel.stillborn(losses);
     let (mut tapped, trouble) = Tapped::create(run);
     trouble.iter().for_each(|trouble| bar.note(trouble));
     let startup_s = began.elapsed().as_secs_f64();
@@ -187,8 +199,6 @@ fn print_summary(args: &RunArgs, done: &Done) -> Result<(), Failure> {
 fn exit(done: &Done) -> Exit {
     if done.summary.containment.violations > 0 {
         Exit::Violated
-    } else if done.aborted.is_some() {
-        Exit::Failed
     } else if done.interrupted || done.record_incomplete || !done.summary.agents.lost.is_empty() {
         Exit::Loss
     } else {

@@ -2,13 +2,16 @@
 
 use shoal_scenario::{Overrides, Scenario, load, parse};
 
-use crate::cli::RunArgs;
+use crate::cli::{Bus, RunArgs};
 use crate::failure::Failure;
 use crate::launch::Order;
 
 impl Order {
     /// Reads the scenario that the command line names.
     pub fn read(args: &RunArgs) -> Result<Self, Failure> {
+        if args.endpoint.is_some() && args.bus != Bus::Zenoh {
+            return Err(Failure::usage("--endpoint is for zenoh: add `--bus zenoh`, or leave it out"));
+        }
         let (source_name, text) = load(&args.scenario).map_err(Failure::usage)?;
         Ok(Self {
             source_name,

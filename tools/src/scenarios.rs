@@ -52,8 +52,9 @@ pub fn check(names: &[String]) -> Result<Exit, Failure> {
                 Err(errors) => refused.push(errors.render(terminal::stderr_has_colour())),
                 Ok(scenario) => {
                     let (auvs, groups) = (scenario.auv_count(), scenario.groups.len());
+                    let plural = if groups == 1 { "" } else { "s" };
                     println!(
-                        "{source_name}: good: {auvs} AUVs in {groups} groups, {} s",
+                        "{source_name}: good: {auvs} AUVs in {groups} group{plural}, {} s",
                         scenario.duration_ns as f64 / 1e9
                     );
                 }

@@ -27,8 +27,11 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         summary.real_time_factor.unwrap_or(0.0),
         summary.startup_s.unwrap_or(0.0),
     )?;
-    let verdict =
-        if containment.violations == 0 { "no enclosure lost the truth" } else { "THE TRUTH WAS LOST" };
+    let verdict = match (containment.checks, containment.violations) {
+        (0, _) => "nothing was checked",
+        (_, 0) => "no enclosure lost the truth",
+        _ => "THE TRUTH WAS LOST",
+    };
     writeln!(
         text,
         "  containment   {} checks, {} violations: {verdict}",

@@ -33,6 +33,10 @@ pub fn run(args: &TapArgs) -> Result<Exit, Failure> {
             }
             left -= 1;
         }
+        // What has happened is seen at once, however little it is.
+        if out.flush().is_err() {
+            return Ok(Exit::Good);
+        }
     }
     let _closed = out.flush();
     match tap.missed() {
@@ -66,13 +70,17 @@ impl Attached {
 
 /// Finds the run and attaches, waiting as long as `--wait` says.
 fn attached(args: &TapArgs) -> Result<Attached, Failure> {
-    let patience = Duration::try_from_secs_f64(args.wait)
-        .map_err(|_| Failure::usage(format!("--wait {}: give a positive number of seconds", args.wait)))?;
-    let deadline = Instant::now() + patience;
+    let patience = Duration::try_from_secs_f64(args.wait).ok();
+    let deadline = patience.and_then(|patience| Instant::now().checked_add(patience));
+    let wrong = || Failure::usage(format!("--wait {}: give a number of seconds, 0 or more", args.wait));
+    let deadline = deadline.ok_or_else(wrong)?;
     loop {
         let attempt = chosen(args).and_then(|run| match TapSubscriber::attach(&run) {
             Ok(tap) => Ok(Attached { run, tap }),
-            Err(error) => Err(Failure::failed(format!("run {} cannot be tapped: {error}", run.id()))),
+            Err(_) => Err(Failure::failed(format!(
+                "run {} is just starting or ending and cannot be tapped; give --wait SECONDS",
+                run.id()
+            ))),
         });
         match attempt {
             Err(failure) if Instant::now() >= deadline || failure.exit == Exit::Usage => return Err(failure),
@@ -84,7 +92,7 @@ fn attached(args: &TapArgs) -> Result<Attached, Failure> {
 
 /// The run that `--run` names, or the only one.
 fn chosen(args: &TapArgs) -> Result<RunDir, Failure> {
-    let mut live: Vec<RunDir> = RunDir::list().into_iter().filter(RunDir::is_live).collect();
+    let mut live: Vec<RunDir> = RunDir::list();
     if let Some(id) = &args.run {
         let names = list(&live);
         return live.into_iter().find(|run| run.id() == id).ok_or_else(|| {

@@ -6,7 +6,7 @@ use shoal_interval::{Interval, IntervalBox};
 /// The tick at which [`Sabotage::EmptySet`] strikes.
 pub const EMPTYING_TICK: u64 = 10;
 
-/// What the estimator is told: the truth, or with half the clock's drift.
+/// What the estimator is told: what the AUV was, or the same with half the clock's drift.
 pub fn believed(born: &Born) -> Born {
     let mut believed = born.clone();
     if born.orders.sabotage == Some(Sabotage::HalvedClock) {

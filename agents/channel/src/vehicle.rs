@@ -119,7 +119,8 @@ impl Vehicle {
         let ahead_ns = wake.reaction_ns + 2 * wake.period_ns;
         let scheduled = orders.ping.map_or(0, |ping| ahead_ns / ping.period_ns) as usize;
         if self.planned.len() + acted.pings.len() > 2 * scheduled + PINGS_OUTSTANDING {
-            return Err(format!("it booked {} pings at one tick", acted.pings.len()));
+            let waiting = self.planned.len();
+            return Err(format!("it booked {} pings on top of {waiting}", acted.pings.len()));
         }
         for ping in &acted.pings {
             let bytes = ping.frame.bytes().len();

@@ -14,12 +14,12 @@ use super::members::{Group, InterruptHandle, Member, Shared};
 use super::{BUS, GROUP_MAX};
 use crate::codec;
 use crate::iceoryx::{self, Island};
-use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss};
+use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, PROCESS_ENDED};
 use crate::message::{Acted, AuvId, Born, Sensed};
 use crate::os::{keep_descriptors_from_children, raise_descriptor_limit};
 use crate::run_dir::RunDir;
 use crate::watch::Watch;
-use crate::wire::{NOT_A_MESSAGE, PROCESS_ENDED, ToAuvRef, read_acted};
+use crate::wire::{NOT_A_MESSAGE, ToAuvRef, read_acted};
 
 /// How long live AUVs may be silent unless [`SharedMemoryFleet::set_stall_limit`] says otherwise.
 const STALL_LIMIT: Duration = Duration::from_secs(300);

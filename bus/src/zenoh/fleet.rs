@@ -12,12 +12,12 @@ use super::frame::write_down;
 use super::member::{Awaits, Member};
 use super::{BUS, session, up_key};
 use crate::codec;
-use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss};
+use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, PROCESS_ENDED};
 use crate::message::{AuvId, Born, Sensed};
 use crate::os::raise_descriptor_limit;
 use crate::run_dir::RunDir;
 use crate::watch::Watch;
-use crate::wire::{PROCESS_ENDED, ToAuvRef};
+use crate::wire::ToAuvRef;
 
 /// How long live AUVs may be silent unless [`ZenohFleet::set_stall_limit`] says otherwise.
 const STALL_LIMIT: Duration = Duration::from_secs(300);
