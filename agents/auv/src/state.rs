@@ -2,7 +2,8 @@
 
 use shoal_bus::message::{Culprit, Measured};
 use shoal_bus::ping::Ping;
-use shoal_interval::{Interval, IntervalBox, contract_range};
+use shoal_interval::contractor::contract_range;
+use shoal_interval::{Interval, IntervalBox};
 
 use crate::bounds::{interval, interval_box, measured};
 use crate::motion::{Motion, Moved};

@@ -6,7 +6,8 @@
 //! touched, and every result has the same bits on every machine.
 //!
 //! A *contractor* takes sets that are linked by an equation and removes only what cannot satisfy it:
-//! [`contract_distance`] for `‖a - b‖ = r`, [`contract_range`] for a ping, `‖p - e‖ = c (t - a)`. When nothing
+//! [`contract_distance`](contractor::contract_distance) for `‖a - b‖ = r`,
+//! [`contract_range`](contractor::contract_range) for a ping, `‖p - e‖ = c (t - a)`. When nothing
 //! satisfies the equation the answer is the empty set, which is a value like any other.
 //!
 //! ```
@@ -24,21 +25,20 @@
 //! Source: seed 001, chapter 2.3.
 
 mod arithmetic;
-mod backward;
-mod distance;
+pub mod contractor;
 mod elementary;
 mod error;
 mod interval;
 mod interval_box;
+mod reverse;
 mod rounding;
+pub mod separator;
 #[cfg(feature = "serde")]
 mod serialization;
 mod set;
 #[cfg(test)]
 mod strategies;
-mod trigonometry;
 
-pub use distance::{Contracted, contract_distance, contract_range};
 pub use error::IntervalError;
 pub use interval::Interval;
 pub use interval_box::IntervalBox;

@@ -17,7 +17,8 @@
 //! Run with `cargo run -p shoal-tube --example two_circles`.
 
 use pxfm::{f_cos, f_sin};
-use shoal_interval::{Interval, IntervalBox, contract_range};
+use shoal_interval::contractor::contract_range;
+use shoal_interval::{Interval, IntervalBox};
 use shoal_tube::{TimeDomain, Tube, TubeError};
 
 const RADIUS_M: f64 = 10.0;

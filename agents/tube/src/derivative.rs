@@ -4,7 +4,8 @@ use crate::enclosure::Enclosure;
 use crate::error::TubeError;
 use crate::online::{narrow, together};
 use crate::tube::Tube;
-use shoal_interval::{Contracted, Interval};
+use shoal_interval::Interval;
+use shoal_interval::contractor::Contracted;
 
 /// Which way in time a contractor carries what is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -34,6 +34,6 @@ mod tube;
 pub use derivative::Direction;
 pub use enclosure::Enclosure;
 pub use error::TubeError;
-pub use shoal_interval::Contracted;
+pub use shoal_interval::contractor::Contracted;
 pub use time_domain::{Place, TimeDomain};
 pub use tube::Tube;

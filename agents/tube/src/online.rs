@@ -3,7 +3,7 @@
 use crate::enclosure::Enclosure;
 use crate::error::TubeError;
 use crate::tube::Tube;
-use shoal_interval::Contracted;
+use shoal_interval::contractor::Contracted;
 
 impl<T: Enclosure> Tube<T> {
     /// Adds a slice that ends at `end_s` seconds, with the gate at its end.

@@ -1,18 +1,8 @@
 //! Contractors for the distance between two points, and for a ping that travels it.
 
+use super::Contracted;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
-
-/// What a contractor did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Contracted {
-    /// Nothing could be removed.
-    Unchanged,
-    /// Something was removed, and something is left.
-    Narrowed,
-    /// Nothing is left: the sets contradict the equation, and what was contracted is now empty.
-    Empty,
-}
 
 /// Contracts two boxes and an interval linked by `‖a - b‖ = range`, the Euclidean norm, all in the same unit.
 ///
@@ -21,7 +11,8 @@ pub enum Contracted {
 /// possible.
 ///
 /// ```
-/// use shoal_interval::{Contracted, Interval, IntervalBox, contract_distance};
+/// use shoal_interval::contractor::{Contracted, contract_distance};
+/// use shoal_interval::{Interval, IntervalBox};
 ///
 /// let mut beacon = IntervalBox::from([Interval::ZERO, Interval::ZERO]);
 /// let mut vehicle = IntervalBox::from([Interval::new(1.0, 9.0)?, Interval::new(-3.0, 3.0)?]);
@@ -68,7 +59,8 @@ pub fn contract_distance<const N: usize>(
 /// left; when nothing is, all five sets are empty.
 ///
 /// ```
-/// use shoal_interval::{Interval, IntervalBox, contract_range};
+/// use shoal_interval::contractor::contract_range;
+/// use shoal_interval::{Interval, IntervalBox};
 ///
 /// let mut position = IntervalBox::from([Interval::new(0.0, 200.0)?, Interval::ZERO, Interval::ZERO]);
 /// let mut emitter = IntervalBox::from([Interval::ZERO; 3]);
