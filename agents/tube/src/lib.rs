@@ -23,17 +23,28 @@
 //!
 //! Source: seed 001, chapter 4.2.
 
+mod arithmetic;
+mod components;
+mod contraction;
 mod derivative;
 mod enclosure;
 mod error;
+mod integral;
+mod inversion;
 mod online;
 mod query;
+mod relation;
+#[cfg(feature = "serde")]
+mod serialization;
+mod storage;
+mod summary;
 mod time_domain;
+mod transformation;
 mod tube;
 
 pub use derivative::Direction;
-pub use enclosure::Enclosure;
-pub use error::TubeError;
+pub use enclosure::{Enclosure, InnerBounds};
+pub use error::{Emptied, TubeError};
 pub use shoal_interval::contractor::Contracted;
 pub use time_domain::{Place, TimeDomain};
 pub use tube::Tube;
