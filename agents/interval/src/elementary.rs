@@ -17,5 +17,9 @@ mod outward;
 mod powers;
 mod quarter_turns;
 mod roots_and_order;
+mod scaled;
 mod steps;
 mod trigonometry;
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! Exponential and natural logarithm.
 
-use super::outward::{above, below};
+use super::scaled::Scaled;
 use crate::interval::Interval;
 use pxfm::{f_exp, f_log};
 
@@ -26,10 +26,19 @@ impl Interval {
             return Interval::EMPTY;
         }
         let (from, to) = (self.lower(), self.upper());
-        let lower = if from == 0.0 { 1.0 } else { below(f_exp(from), 0.0) };
+        let lower = match from {
+            0.0 => 1.0,
+            _ if from < SUBNORMAL_BELOW => {
+                subnormal_exponential(from).map_or(0.0, |value| value.rounded_down())
+            }
+            _ => f_exp(from).next_down(),
+        };
         let upper = match to {
             0.0 => 1.0,
             f64::INFINITY => to,
+            _ if to < SUBNORMAL_BELOW => {
+                subnormal_exponential(to).map_or(f64::from_bits(1), |value| value.rounded_up())
+            }
             _ => f_exp(to).next_up(),
         };
         Interval::from_bounds(lower, upper)
@@ -65,8 +74,25 @@ impl Interval {
         let upper = match to {
             1.0 => 0.0,
             f64::INFINITY => to,
-            _ => above(f_log(to), f64::INFINITY),
+            _ => f_log(to).next_up(),
         };
         Interval::from_bounds(lower, upper)
     }
+}
+
+/// The exponential of a smaller number may be subnormal: there `f_exp` of `pxfm` 0.1 is now and then wrong by far.
+const SUBNORMAL_BELOW: f64 = -708.0;
+
+/// The exponential of a number below [`SUBNORMAL_BELOW`]; nothing when it is between zero and the smallest `f64`.
+#[cold]
+fn subnormal_exponential(x: f64) -> Option<Scaled> {
+    if x < -746.0 {
+        return None;
+    }
+    /// The exponential of -64.
+    const FACTOR: Scaled = Scaled::near(1.588_337_373_481_681_2, -7.290_303_386_903_233e-17, -93);
+    // The sum is exact: it has the last bit of `x` and fewer leading ones.
+    let normal = Scaled::exact(f_exp(x + 64.0));
+    // Half a unit in the last place of `f_exp`, with some reserve.
+    Some(normal.times(&FACTOR).with_tolerance(2.1 / (1_u64 << 53) as f64))
 }

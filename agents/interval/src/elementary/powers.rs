@@ -3,8 +3,8 @@
 use super::corners::{highest_corners, lowest_corners};
 use super::integer_powers::{power_down, power_up};
 use super::outward::below;
+use super::scaled::Scaled;
 use crate::interval::Interval;
-use crate::rounding::{sqrt_down, sqrt_up};
 use crate::set::{larger, smaller};
 use pxfm::f_pow;
 
@@ -53,7 +53,7 @@ fn real_power_down(x: f64, y: f64) -> f64 {
     match (limit(x, y), whole(y)) {
         (Some(limit), _) => limit,
         (None, Some(exponent)) => power_down(x, exponent),
-        (None, None) if y == 0.5 => sqrt_down(x),
+        (None, None) if y.abs() == 0.5 => half_power(x, y).rounded_down(),
         (None, None) => below(f_pow(x, y), 0.0),
     }
 }
@@ -63,9 +63,15 @@ fn real_power_up(x: f64, y: f64) -> f64 {
     match (limit(x, y), whole(y)) {
         (Some(limit), _) => limit,
         (None, Some(exponent)) => power_up(x, exponent),
-        (None, None) if y == 0.5 => sqrt_up(x),
+        (None, None) if y.abs() == 0.5 => half_power(x, y).rounded_up(),
         (None, None) => f_pow(x, y).next_up(),
     }
+}
+
+/// The root, or its reciprocal: exact ones stay so, and `f_pow` of `pxfm` 0.1 fails for a reciprocal root of 1e302.
+fn half_power(x: f64, y: f64) -> Scaled {
+    let root = Scaled::exact(x).sqrt();
+    if y > 0.0 { root } else { root.reciprocal() }
 }
 
 fn limit(x: f64, y: f64) -> Option<f64> {

@@ -80,7 +80,13 @@ fn counted(angle: f64) -> Option<i64> {
     const ROUNDER: f64 = 6_755_399_441_055_744.0;
     let whole = (quarters - 0.5 + ROUNDER) - ROUNDER;
     let rest = quarters - whole;
-    ((DOUBT..=1.0 - DOUBT).contains(&rest)).then_some(whole as i64)
+    if (DOUBT..=1.0 - DOUBT).contains(&rest) {
+        Some(whole as i64)
+    } else if angle == 0.0 {
+        Some(0)
+    } else {
+        None
+    }
 }
 
 /// The quarter turn of a finite angle, modulo four. Sine and cosine are never rounded past zero.
