@@ -32,6 +32,7 @@ mod elementary;
 mod error;
 mod interval;
 mod interval_box;
+//mod interval_matrix;
 mod reverse;
 mod rounding;
 pub mod separator;
@@ -40,7 +41,11 @@ mod serialization;
 mod set;
 #[cfg(test)]
 mod strategies;
+mod text;
 
+pub use comparison::Overlap;
 pub use error::IntervalError;
 pub use interval::Interval;
 pub use interval_box::{Difference, IntervalBox};
+//pub use interval_matrix::IntervalMatrix;
+pub use text::ParseIntervalError;
