@@ -251,4 +251,13 @@ mod tests {
         assert!(Interval::EMPTY.width().is_nan());
         assert!(!Interval::NON_NEGATIVE.is_bounded());
     }
+
+    #[test]
+    fn a_radius_reaches_both_bounds() {
+        let neighbours = Interval::new(1.0, 1.0_f64.next_up()).unwrap();
+        assert_eq!(neighbours.radius(), f64::EPSILON);
+        assert_eq!(Interval::new(f64::MIN, f64::MAX).unwrap().radius(), f64::MAX);
+        assert_eq!((Interval::ONE.radius(), Interval::NON_NEGATIVE.radius()), (0.0, f64::INFINITY));
+        assert!(Interval::EMPTY.radius().is_nan());
+    }
 }
