@@ -17,9 +17,9 @@ mod rotation;
 /// use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 ///
 /// let quarter_turn = Interval::point(std::f64::consts::FRAC_PI_2)?.inflate(0.01);
-/// let velocity_m_s = IntervalBox::from([Interval::new(1.0, 1.1)?, Interval::ZERO]);
+/// let velocity_m_s = IntervalBox::from([Interval::new(1.0, 1.25)?, Interval::ZERO]);
 /// let turned_m_s = IntervalMatrix::rotation_2d(quarter_turn) * velocity_m_s;
-/// assert_eq!(format!("{turned_m_s:.2}"), "[-0.02, 0.02] x [0.99, 1.10]");
+/// assert_eq!(format!("{turned_m_s:.2}"), "[-0.02, 0.02] x [0.99, 1.25]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

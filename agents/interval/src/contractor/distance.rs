@@ -69,7 +69,7 @@ pub fn contract_distance<const N: usize>(
 /// let mut emission = Interval::point(9.9)?;
 /// assert!(contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission));
 /// assert_eq!(format!("{:.3}", position[0]), "[149.999, 200.000]");
-/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.033]");
+/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.034]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
