@@ -20,7 +20,7 @@ impl Interval {
     #[inline]
     pub fn bisect(self) -> Option<(Interval, Interval)> {
         let middle = self.mid();
-        if !self.is_bounded() || !(self.lower() < middle && middle < self.upper()) {
+        if !(self.is_bounded() && self.lower() < middle && middle < self.upper()) {
             return None;
         }
         Some((Interval::from_bounds(self.lower(), middle), Interval::from_bounds(middle, self.upper())))
