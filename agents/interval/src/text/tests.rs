@@ -65,7 +65,7 @@ fn literals_of_the_standard() {
 
 #[test]
 fn hexadecimals_are_what_rust_reads_in_decimals() {
-    assert_eq!(read("[0x1.3c083126e978dp+0]"), Interval::point(1.234_499_999_999_999_9).unwrap());
+    assert_eq!(read("[0x1.3c083126e978dp+0]"), Interval::point(1.2345).unwrap());
     assert_eq!(read("[-0x1.8, 0X.8P1]"), between(-1.5, 1.0));
     assert_eq!(read("[0x1p-1074, 0x1p1023]"), between(f64::from_bits(1), 2.0 * (f64::MAX / 4.0).next_up()));
     assert_eq!(read("0x1.00000000000008p0"), between(1.0, 1.0_f64.next_up()));
