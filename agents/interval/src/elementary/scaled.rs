@@ -86,6 +86,7 @@ impl Scaled {
         }
     }
 
+    #[inline]
     pub(super) fn rounded_down(&self) -> f64 {
         if self.exponent > 1025 {
             return f64::MAX;
@@ -97,6 +98,7 @@ impl Scaled {
         if nearest.is_infinite() || excess - self.tolerance < 0.0 { nearest.next_down() } else { nearest }
     }
 
+    #[inline]
     pub(super) fn rounded_up(&self) -> f64 {
         if self.exponent > 1025 {
             return f64::INFINITY;
@@ -110,9 +112,18 @@ impl Scaled {
 
     /// The nearest number, or infinity, to `high` alone, and by how much `high + low` is above it in units of
     /// 2^exponent.
+    #[inline]
     fn to_nearest(&self) -> (f64, f64) {
-        // Two factors, as one alone may be subnormal or infinite; only the second product is rounded.
         let exponent = self.exponent as i32;
+        if (-1000..1000).contains(&exponent) {
+            return (self.high * power_of_two(exponent), self.low);
+        }
+        self.to_nearest_at_the_ends(exponent)
+    }
+
+    #[cold]
+    fn to_nearest_at_the_ends(&self, exponent: i32) -> (f64, f64) {
+        // Two factors, as one alone may be subnormal or infinite; only the second product is rounded.
         let first = exponent / 2;
         let (one, other) = (power_of_two(first), power_of_two(exponent - first));
         let nearest = self.high * one * other;
@@ -122,6 +133,7 @@ impl Scaled {
     }
 }
 
+#[inline]
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
