@@ -25,11 +25,15 @@
 //! Source: seed 001, chapter 2.3.
 
 mod arithmetic;
+mod bisection;
+mod comparison;
 pub mod contractor;
 mod elementary;
 mod error;
 mod interval;
 mod interval_box;
+mod interval_matrix;
+mod membership;
 mod reverse;
 mod rounding;
 pub mod separator;
@@ -38,7 +42,12 @@ mod serialization;
 mod set;
 #[cfg(test)]
 mod strategies;
+mod text;
 
+pub use comparison::Overlap;
 pub use error::IntervalError;
 pub use interval::Interval;
-pub use interval_box::IntervalBox;
+pub use interval_box::{Difference, IntervalBox};
+pub use interval_matrix::IntervalMatrix;
+pub use membership::Membership;
+pub use text::ParseIntervalError;

@@ -32,7 +32,7 @@ impl Interval {
     /// use shoal_interval::Interval;
     ///
     /// let heading_rad = Interval::new(6.0, 7.0)?.wrap_angle();
-    /// assert_eq!(format!("{heading_rad:.3}"), "[-0.283, 0.717]");
+    /// assert_eq!(format!("{heading_rad:.3}"), "[-0.284, 0.717]");
     /// let across = Interval::new(3.0, 3.5)?.wrap_angle();
     /// assert_eq!(across, Interval::new(-Interval::PI.upper(), Interval::PI.upper())?);
     /// # Ok::<(), shoal_interval::IntervalError>(())
