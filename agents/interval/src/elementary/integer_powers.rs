@@ -123,9 +123,9 @@ fn power(x: f64, exponent: i32) -> Scaled {
     let mut power = x;
     let count = exponent.unsigned_abs();
     for bit in (0..count.ilog2()).rev() {
-        power = power.times(&power);
+        power = power.times(power);
         if count >> bit & 1 == 1 {
-            power = power.times(&x);
+            power = power.times(x);
         }
     }
     if !power.is_exact() {
