@@ -31,6 +31,7 @@ mod error;
 mod interval;
 mod interval_box;
 mod membership;
+pub mod paving;
 mod reverse;
 mod rounding;
 pub mod separator;

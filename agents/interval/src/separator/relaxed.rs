@@ -1,0 +1,131 @@
+//! The separator of a relaxed intersection, which tolerates a number of outliers.
+
+use super::{Separation, Separator};
+use crate::interval::Interval;
+use crate::interval_box::IntervalBox;
+use std::marker::PhantomData;
+
+/// The separator of the vectors that are in all sets of a list but at most `outliers` of them.
+///
+/// With no outlier this is the [`intersection`](super::intersection), with one less than there are sets their
+/// [`union`](super::union), with as many as there are sets the universe. A vector is not in the relaxed set of `m` sets
+/// with `q` outliers when it is in at least `q + 1` of the complements, so the inner contractor relaxes the inner
+/// boxes with `m - q - 1` outliers.
+///
+/// Axis by axis, each side of the result starts and ends where enough of the contracted boxes overlap: minimal for boxes
+/// of one dimension, not always for more (that problem is NP-hard). Takes `m log m` steps an axis.
+///
+/// ```
+/// use shoal_interval::separator::{InBox, Separator, q_intersection};
+/// use shoal_interval::{Interval, IntervalBox};
+///
+/// let granule = |lower, upper| InBox::new(IntervalBox::from([Interval::new(lower, upper).unwrap()]));
+/// let most = q_intersection([granule(0.0, 4.0), granule(3.0, 6.0), granule(9.0, 9.5)], 1);
+/// assert_eq!(most.outer(IntervalBox::ENTIRE)[0], Interval::new(3.0, 4.0)?);
+/// # Ok::<(), shoal_interval::IntervalError>(())
+/// ```
+///
+/// Source: seed 001, section 2.4.4; seed 000, equation (2.34); Jaulin, *Robust set-membership state estimation*, 2009.
+pub fn q_intersection<S, L: AsRef<[S]>>(separators: L, outliers: usize) -> QIntersection<S, L> {
+    QIntersection { separators, outliers, kind: PhantomData }
+}
+
+/// The separator made by [`q_intersection`].
+#[derive(Debug, Clone, Copy)]
+pub struct QIntersection<S, L> {
+    separators: L,
+    outliers: usize,
+    kind: PhantomData<fn() -> S>,
+}
+
+impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for QIntersection<S, L> {
+    fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
+        let separators = self.separators.as_ref();
+        with_boxes(separators, |separator| separator.inner(domain), |boxes| {
+            in_at_least(self.outliers.saturating_add(1), boxes, domain)
+        })
+    }
+
+    fn outer(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
+        let separators = self.separators.as_ref();
+        with_boxes(separators, |separator| separator.outer(domain), |boxes| {
+            in_at_least(separators.len().saturating_sub(self.outliers), boxes, domain)
+        })
+    }
+
+    fn separate(&self, domain: IntervalBox<N>) -> Separation<N> {
+        Separation { inner: self.inner(domain), outer: self.outer(domain) }
+    }
+}
+
+/// Up to this many boxes need no memory of their own.
+const FEW: usize = 16;
+
+/// Hands on the boxes that `contract` makes of each separator, without an allocation when they are few.
+pub(crate) fn with_boxes<const N: usize, S, R>(
+    separators: &[S],
+    contract: impl Fn(&S) -> IntervalBox<N>,
+    then: impl FnOnce(&[IntervalBox<N>]) -> R,
+) -> R {
+    if separators.len() > FEW {
+        let boxes: Vec<IntervalBox<N>> = separators.iter().map(contract).collect();
+        return then(&boxes);
+    }
+    let mut boxes = [IntervalBox::EMPTY; FEW];
+    for (contracted, separator) in boxes.iter_mut().zip(separators) {
+        *contracted = contract(separator);
+    }
+    then(&boxes[..separators.len()])
+}
+
+/// A box that holds every vector of `domain` that is in at least `enough` of the boxes, which are inside `domain`.
+fn in_at_least<const N: usize>(
+    enough: usize,
+    boxes: &[IntervalBox<N>],
+    domain: IntervalBox<N>,
+) -> IntervalBox<N> {
+    if enough == 0 {
+        return domain;
+    }
+    let held = boxes.iter().filter(|held| !held.is_empty());
+    if held.clone().count() < enough {
+        return IntervalBox::EMPTY;
+    }
+    let mut left = domain;
+    for axis in 0..N {
+        left[axis] = overlap(enough, held.clone().map(|held| held[axis]));
+        if left[axis].is_empty() {
+            return IntervalBox::EMPTY;
+        }
+    }
+    left
+}
+
+/// The hull of the numbers that are in at least `enough` of the intervals, of which none is empty.
+fn overlap(enough: usize, intervals: impl Iterator<Item = Interval> + Clone) -> Interval {
+    let count = intervals.clone().count();
+    let (mut few_lowers, mut few_uppers) = ([0.0; FEW], [0.0; FEW]);
+    let (mut many_lowers, mut many_uppers) = (Vec::new(), Vec::new());
+    let (lowers, uppers) = if count <= FEW {
+        (&mut few_lowers[..count], &mut few_uppers[..count])
+    } else {
+        many_lowers.resize(count, 0.0);
+        many_uppers.resize(count, 0.0);
+        (&mut many_lowers[..], &mut many_uppers[..])
+    };
+    for (index, interval) in intervals.enumerate() {
+        (lowers[index], uppers[index]) = (interval.lower(), interval.upper());
+    }
+    lowers.sort_unstable_by(f64::total_cmp);
+    uppers.sort_unstable_by(f64::total_cmp);
+
+    // At a lower bound, as many intervals hold it as have begun by then and not ended before it.
+    let ended_before = |x: f64| uppers.partition_point(|&upper| upper < x);
+    let first = (0..count).find(|&begun| begun + 1 - ended_before(lowers[begun]) >= enough);
+    let begun_by = |x: f64| lowers.partition_point(|&lower| lower <= x);
+    let last = (0..count).rev().find(|&ended| begun_by(uppers[ended]) - ended >= enough);
+    match (first, last) {
+        (Some(first), Some(last)) => Interval::from_bounds(lowers[first], uppers[last]),
+        _ => Interval::EMPTY,
+    }
+}
