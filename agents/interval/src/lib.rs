@@ -25,6 +25,8 @@
 //! Source: seed 001, chapter 2.3.
 
 mod arithmetic;
+mod bisection;
+mod comparison;
 pub mod contractor;
 mod elementary;
 mod error;
@@ -43,5 +45,5 @@ mod strategies;
 
 pub use error::IntervalError;
 pub use interval::Interval;
-pub use interval_box::IntervalBox;
+pub use interval_box::{Difference, IntervalBox};
 pub use membership::Membership;
