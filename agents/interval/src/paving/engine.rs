@@ -87,7 +87,8 @@ fn run_piece<const N: usize>(
         if undecided.is_empty() {
             continue;
         }
-        match options.bisect(&undecided) {
+        let halves = if options.is_fine(&part, &undecided) { None } else { options.bisect(&undecided) };
+        match halves {
             Some((first, second)) => {
                 paving.statistics.bisections += 1;
                 next.push(first);
@@ -104,7 +105,6 @@ impl<const N: usize> Paving<N> {
         self.boundary.append(&mut other.boundary);
         self.outside.append(&mut other.outside);
         self.statistics.boxes += other.statistics.boxes;
-        self.statistics.tests += other.statistics.tests;
         self.statistics.bisections += other.statistics.bisections;
     }
 }

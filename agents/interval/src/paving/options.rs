@@ -76,17 +76,29 @@ impl<const N: usize> Options<N> {
         }
     }
 
-    /// Both halves of a box along the axis that is longest in terms of its precision; nothing if the box is narrower than
-    /// the precision along every axis, or if there is no number between its bounds.
+    /// Whether nothing finer than `undecided`, which is what a cut has left of `domain`, was asked for.
+    ///
+    /// What is left must be narrower than the precision. If the cut itself made it so, and by less than half, the box is
+    /// cut once more: at that size a cut still removes much, and more for its price than a finer precision does.
+    #[inline]
+    pub(super) fn is_fine(&self, domain: &IntervalBox<N>, undecided: &IntervalBox<N>) -> bool {
+        let narrower = |part: &IntervalBox<N>, share: f64| {
+            (0..N).all(|axis| part[axis].width() < share * self.precision[axis])
+        };
+        narrower(domain, 1.0) || narrower(undecided, 0.5)
+    }
+
+    /// Both halves of a box along the axis that is longest in terms of its precision, of those between whose bounds there is
+    /// another number; nothing if there is no such axis.
     #[inline]
     pub(super) fn bisect(&self, undecided: &IntervalBox<N>) -> Option<(IntervalBox<N>, IntervalBox<N>)> {
-        let mut longest = (1.0, None);
+        let mut longest = (0.0, None);
         for axis in 0..N {
             let length = undecided[axis].width() / self.precision[axis];
-            if length >= longest.0 && (longest.1.is_none() || length > longest.0) {
-                if let Some(halves) = undecided.bisect_axis(axis) {
-                    longest = (length, Some(halves));
-                }
+            if length > longest.0
+                && let Some(halves) = undecided.bisect_axis(axis)
+            {
+                longest = (length, Some(halves));
             }
         }
         longest.1

@@ -22,10 +22,9 @@ pub struct Paving<const N: usize> {
 /// How much work a paving was.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Statistics {
-    /// How many boxes were looked at: the iterations, or calls, of the recursive algorithms in the seeds.
+    /// How many boxes were looked at, with one test, contraction or separation each: the calls of the recursive algorithms
+    /// in the seeds.
     pub boxes: usize,
-    /// How often the test, the contractor or the separator was asked. It is asked again about a box as long as it helps.
-    pub tests: usize,
     /// How many boxes were cut in two.
     pub bisections: usize,
 }

@@ -7,9 +7,6 @@ use crate::interval_box::IntervalBox;
 use crate::membership::Membership;
 use crate::separator::Separator;
 
-/// A box is cut again only if the last cut left less than this share of one of its sides.
-const WORTH_ANOTHER_CUT: f64 = 0.9;
-
 /// Paves `initial` with an inclusion test: SIVIA.
 ///
 /// The boxes are those of a regular sub-paving, got from the initial box by bisections alone.
@@ -24,10 +21,7 @@ pub fn sivia<const N: usize>(
     initial: IntervalBox<N>,
     options: &Options<N>,
 ) -> Result<Paving<N>, PavingError> {
-    run(initial, options, |domain, paving| {
-        paving.statistics.tests += 1;
-        sort(test.test(&domain), domain, paving)
-    })
+    run(initial, options, |domain, paving| sort(test.test(&domain), domain, paving))
 }
 
 /// Paves `initial` with a contractor and an inclusion test: CSIVIA.
@@ -46,7 +40,6 @@ pub fn csivia<const N: usize>(
     options: &Options<N>,
 ) -> Result<Paving<N>, PavingError> {
     run(initial, options, |domain, paving| {
-        paving.statistics.tests += 1;
         let left = contractor.contract(domain);
         paving.outside.extend(domain.difference(&left));
         if left.is_empty() {
@@ -58,8 +51,8 @@ pub fn csivia<const N: usize>(
 
 /// Paves `initial` with a separator: SIVIA with an inner and an outer contractor.
 ///
-/// What the outer contractor removes is outside, what the inner one removes of the rest is inside. The separator is asked
-/// again while it removes more than a tenth of a side, and what is undecided then is bisected.
+/// What the outer contractor removes is outside, what the inner one then removes of the rest is inside, and what is left is
+/// bisected.
 ///
 /// # Errors
 /// [`PavingError`] when the initial box is unbounded or the precision is not a positive number.
@@ -71,21 +64,14 @@ pub fn pave<const N: usize>(
     options: &Options<N>,
 ) -> Result<Paving<N>, PavingError> {
     run(initial, options, |domain, paving| {
-        let mut undecided = domain;
-        loop {
-            paving.statistics.tests += 1;
-            let outer = separator.outer(undecided);
-            paving.outside.extend(undecided.difference(&outer));
-            if outer.is_empty() {
-                return outer;
-            }
-            let left = separator.inner(outer);
-            paving.inner.extend(outer.difference(&left));
-            if left.is_empty() || !much_narrower(&left, &undecided) {
-                return left;
-            }
-            undecided = left;
+        let outer = separator.outer(domain);
+        paving.outside.extend(domain.difference(&outer));
+        if outer.is_empty() {
+            return outer;
         }
+        let undecided = separator.inner(outer);
+        paving.inner.extend(outer.difference(&undecided));
+        undecided
     })
 }
 
@@ -118,9 +104,4 @@ fn sort<const N: usize>(
         Membership::Undecided => return domain,
     }
     IntervalBox::EMPTY
-}
-
-#[inline]
-fn much_narrower<const N: usize>(left: &IntervalBox<N>, before: &IntervalBox<N>) -> bool {
-    (0..N).any(|axis| left[axis].width() < WORTH_ANOTHER_CUT * before[axis].width())
 }
