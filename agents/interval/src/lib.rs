@@ -31,6 +31,7 @@ pub mod contractor;
 mod elementary;
 mod error;
 pub mod figure;
+pub mod fuzzy;
 mod interval;
 mod interval_box;
 mod membership;

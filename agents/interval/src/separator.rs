@@ -41,6 +41,7 @@ pub use half_space::HalfSpace;
 pub use in_box::InBox;
 pub use list::{Intersection, Union, intersection, union};
 pub use polygon::{Polygon, PolygonError};
+pub(crate) use relaxed::with_boxes;
 pub use relaxed::{QIntersection, q_intersection};
 pub use ring::Ring;
 

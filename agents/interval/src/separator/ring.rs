@@ -59,18 +59,32 @@ impl<const N: usize> Ring<N> {
     /// Negative distances in `range` mean nothing; an empty or negative `range` gives the empty set. A centre that is not
     /// finite is not known, and nothing is then removed from any box.
     pub fn new(centre: SVector<f64, N>, range: Interval) -> Ring<N> {
-        let possible = range & Interval::NON_NEGATIVE;
+        let (lower, upper) = (range.lower(), range.upper());
+        Ring::between_ranges(centre, (lower, lower), (upper, upper))
+    }
+
+    /// The separator of what is at least `lower` and at most `upper` from `centre`, where both numbers are only known to be
+    /// in these intervals: what it proves holds for all of them.
+    ///
+    /// Bounds below zero count as zero. An interval that is empty is not known, like a centre that is not finite.
+    pub fn with_uncertain_range(centre: SVector<f64, N>, lower: Interval, upper: Interval) -> Ring<N> {
+        let ring = Ring::between_ranges(centre, (lower.lower(), lower.upper()), (upper.lower(), upper.upper()));
+        if lower.is_empty() || upper.is_empty() { Ring { kind: Kind::Unknown, ..ring } } else { ring }
+    }
+
+    fn between_ranges(centre: SVector<f64, N>, lower: (f64, f64), upper: (f64, f64)) -> Ring<N> {
         let kind = if !centre.iter().all(|x| x.is_finite()) {
             Kind::Unknown
-        } else if possible.is_empty() {
+        } else if upper.1 < 0.0 || lower.0 > upper.1 {
             Kind::Nothing
         } else {
             Kind::Ring
         };
-        let (lower, upper) = (possible.lower(), possible.upper());
-        // No distance is below zero, so nothing has to be near enough to be in the hole of a disc.
-        let near = if lower > 0.0 { (mul_down(lower, lower), mul_up(lower, lower)) } else { (-1.0, -1.0) };
-        Ring { centre, near, far: (mul_down(upper, upper), mul_up(upper, upper)), kind }
+        let below = |x: f64| if x < 0.0 { -1.0 } else { mul_down(x, x) };
+        let above = |x: f64| mul_up(larger(0.0, x), larger(0.0, x));
+        // No distance is below zero, so nothing is near enough to be in the hole of a disc.
+        let hole = if lower.1 > 0.0 { above(lower.1) } else { -1.0 };
+        Ring { centre, near: (below(lower.0), hole), far: (below(upper.0), above(upper.1)), kind }
     }
 
     /// The separator of what is at most `radius` from `centre`: a disc, a ball.
