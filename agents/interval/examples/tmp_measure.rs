@@ -9,7 +9,14 @@ fn main() {
     let s = intersection(rings);
     for eps in [0.05, 0.04, 0.03] {
         let p = pave(&s, initial, &Options::new(eps)).unwrap();
-        println!("{eps} {:?} in {} out {} parts {} boundary {}", p.statistics(), p.inner_volume().lower(), p.outer_volume().upper(), p.parts(), p.boundary().len());
+        println!(
+            "{eps} {:?} in {} out {} parts {} boundary {}",
+            p.statistics(),
+            p.inner_volume().lower(),
+            p.outer_volume().upper(),
+            p.parts(),
+            p.boundary().len()
+        );
     }
     let p = pave(&s, initial, &Options::new(0.05)).unwrap();
     let t = std::time::Instant::now();
@@ -24,16 +31,26 @@ fn main() {
     for _ in 0..n {
         for b in p.boundary() {
             let x = s.separate(std::hint::black_box(*b));
-            if x.inner.is_empty() { k += 1 }
+            if x.inner.is_empty() {
+                k += 1
+            }
         }
     }
-    println!("{} ns per separation (boundary, both) {k}", t.elapsed().as_nanos() as f64 / (n * p.boundary().len()) as f64);
+    println!(
+        "{} ns per separation (boundary, both) {k}",
+        t.elapsed().as_nanos() as f64 / (n * p.boundary().len()) as f64
+    );
     let t = std::time::Instant::now();
     for _ in 0..n {
         for b in p.boundary() {
             let x = rings[0].separate(std::hint::black_box(*b));
-            if x.inner.is_empty() { k += 1 }
+            if x.inner.is_empty() {
+                k += 1
+            }
         }
     }
-    println!("{} ns per ring separation {k}", t.elapsed().as_nanos() as f64 / (n * p.boundary().len()) as f64);
+    println!(
+        "{} ns per ring separation {k}",
+        t.elapsed().as_nanos() as f64 / (n * p.boundary().len()) as f64
+    );
 }

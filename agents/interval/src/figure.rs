@@ -65,7 +65,8 @@ impl Figure {
     /// [`FigureError::View`] when the view is empty, unbounded or has no area.
     pub fn new(view: IntervalBox<2>) -> Result<Figure, FigureError> {
         let (width, height) = (view[0].width(), view[1].width());
-        let has_area = !view.is_empty() && width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0;
+        let has_area =
+            !view.is_empty() && width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0;
         if !has_area {
             return Err(FigureError::View { view: view.to_string() });
         }

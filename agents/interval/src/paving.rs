@@ -13,6 +13,8 @@
 //! | [`rsivia`] | inclusion tests, of which some may be wrong | seed 001, table 2.4 |
 //! | [`gomne`] | separators, of which as few as possible are wrong | seed 001, table 2.5 |
 //!
+//! [`SubPaving`] keeps regular sub-pavings as binary trees, for unions, intersections and inclusions.
+//!
 //! All go through the boxes level by level. Several threads share a level, and the result has the same boxes in the same
 //! order as with one. All end: a box as narrow as the precision is not bisected, nor is one between whose bounds there
 //! is no other number, and a budget limits how many boxes are looked at.
@@ -36,13 +38,17 @@ mod error;
 mod inclusion_test;
 mod options;
 mod outliers;
+mod regular;
 mod result;
 mod sivia;
 
 pub use error::PavingError;
-pub use inclusion_test::{FromTestFn, InclusionTest, Relaxed, SetInversion, from_test_fn, relaxed, set_inversion};
+pub use inclusion_test::{
+    FromTestFn, InclusionTest, Relaxed, SetInversion, from_test_fn, relaxed, set_inversion,
+};
 pub use options::Options;
 pub use outliers::{Outliers, gomne};
+pub use regular::{SubPaving, SubPavingError};
 pub use result::{Paving, Statistics, Stopped};
 pub use sivia::{csivia, pave, rsivia, sivia};
 

@@ -25,7 +25,8 @@ impl Figure {
             // Nothing is drawn far outside of the view, where a reader's numbers could overflow.
             let [x, y] = (*shown & self.margin()).sides();
             if !(x.is_empty() || y.is_empty()) {
-                let _ = write!(path, "M{} {}H{}V{}H{}z", x.lower(), y.lower(), x.upper(), y.upper(), x.lower());
+                let _ =
+                    write!(path, "M{} {}H{}V{}H{}z", x.lower(), y.lower(), x.upper(), y.upper(), x.lower());
             }
         }
         if !path.is_empty() {

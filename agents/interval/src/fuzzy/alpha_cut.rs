@@ -13,7 +13,12 @@ use crate::separator::{Separator, with_boxes};
 /// granules. Granules that are missing count as empty.
 ///
 /// Source: seed 000, algorithm 1.
-pub fn contract_interval(score: &ScoreFunction, grade: Grade, granules: &[Interval], domain: Interval) -> Interval {
+pub fn contract_interval(
+    score: &ScoreFunction,
+    grade: Grade,
+    granules: &[Interval],
+    domain: Interval,
+) -> Interval {
     let granule = |index: usize| granules.get(index).copied().unwrap_or(Interval::EMPTY);
     where_holds(score.granules(), &granule, domain, &|members| score.of(members) >= grade)
 }
@@ -48,7 +53,11 @@ impl<C> AlphaCutContractor<C> {
     ///
     /// # Errors
     /// [`FuzzyError::GranuleCount`] when the score function is one of another number of granules.
-    pub fn new(score: ScoreFunction, grade: Grade, granules: Vec<C>) -> Result<AlphaCutContractor<C>, FuzzyError> {
+    pub fn new(
+        score: ScoreFunction,
+        grade: Grade,
+        granules: Vec<C>,
+    ) -> Result<AlphaCutContractor<C>, FuzzyError> {
         check_count(&score, granules.len())?;
         Ok(AlphaCutContractor { score, grade, granules })
     }
@@ -56,9 +65,11 @@ impl<C> AlphaCutContractor<C> {
 
 impl<const N: usize, C: Contractor<N>> Contractor<N> for AlphaCutContractor<C> {
     fn contract(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
-        with_boxes(&self.granules, |granule| granule.contract(domain), |boxes| {
-            contract_box(&self.score, self.grade, boxes, domain)
-        })
+        with_boxes(
+            &self.granules,
+            |granule| granule.contract(domain),
+            |boxes| contract_box(&self.score, self.grade, boxes, domain),
+        )
     }
 }
 
@@ -106,15 +117,19 @@ impl<S> AlphaCut<S> {
 impl<const N: usize, S: Separator<N>> Separator<N> for AlphaCut<S> {
     fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         let fails = |not_in: &dyn Fn(usize) -> bool| self.score.of(|granule| !not_in(granule)) < self.grade;
-        with_boxes(&self.granules, |granule| granule.inner(domain), |boxes| {
-            boxes_where(self.score.granules(), boxes, domain, &fails)
-        })
+        with_boxes(
+            &self.granules,
+            |granule| granule.inner(domain),
+            |boxes| boxes_where(self.score.granules(), boxes, domain, &fails),
+        )
     }
 
     fn outer(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
-        with_boxes(&self.granules, |granule| granule.outer(domain), |boxes| {
-            contract_box(&self.score, self.grade, boxes, domain)
-        })
+        with_boxes(
+            &self.granules,
+            |granule| granule.outer(domain),
+            |boxes| contract_box(&self.score, self.grade, boxes, domain),
+        )
     }
 }
 

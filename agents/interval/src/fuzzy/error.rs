@@ -18,7 +18,10 @@ pub enum FuzzyError {
     #[error("a mean needs a weight that is not zero, a least or greatest score needs a part")]
     NoWeight,
     /// The common denominator of all values of a score function is too large to compute with exactly.
-    #[error("the weights of a score function have a common denominator above {}: use smaller whole numbers", u32::MAX)]
+    #[error(
+        "the weights of a score function have a common denominator above {}: use smaller whole numbers",
+        u32::MAX
+    )]
     TooFine,
     /// A score function asks for a granule that is not there.
     #[error("a score function uses granule {granule}, but there are only {granules}, counted from zero")]
@@ -29,7 +32,9 @@ pub enum FuzzyError {
         granules: usize,
     },
     /// A closure cannot be checked for so many granules, since it has to be asked about every combination.
-    #[error("a score function given as a closure can have {limit} granules at most, not {granules}: build it from `Score`")]
+    #[error(
+        "a score function given as a closure can have {limit} granules at most, not {granules}: build it from `Score`"
+    )]
     TooManyGranules {
         /// How many granules were asked for.
         granules: usize,
@@ -45,7 +50,9 @@ pub enum FuzzyError {
         all: Grade,
     },
     /// A score function falls when a vector is in one granule more.
-    #[error("a score function must not fall, but being in granule {granule} as well lowers it from {without} to {with}")]
+    #[error(
+        "a score function must not fall, but being in granule {granule} as well lowers it from {without} to {with}"
+    )]
     NotMonotone {
         /// The granule that lowers it.
         granule: usize,

@@ -118,7 +118,8 @@ impl ScoreFunction {
         let combinations = 1_usize << granules;
         let table: Vec<Grade> = (0..combinations)
             .map(|combination| {
-                let members: Vec<bool> = (0..granules).map(|granule| combination >> granule & 1 == 1).collect();
+                let members: Vec<bool> =
+                    (0..granules).map(|granule| combination >> granule & 1 == 1).collect();
                 score(&members)
             })
             .collect();
@@ -147,7 +148,8 @@ impl ScoreFunction {
         match &self.values {
             Values::Tree(node) => Grade::from_parts(node.numerator(&members), node.denominator),
             Values::Table(table) => {
-                table[(0..self.granules).fold(0, |bits, granule| bits | usize::from(members(granule)) << granule)]
+                table[(0..self.granules)
+                    .fold(0, |bits, granule| bits | usize::from(members(granule)) << granule)]
             }
         }
     }
@@ -203,7 +205,10 @@ fn extreme(
 type Scaled = (u32, u32, Node);
 
 /// The parts with their weights and with what takes each to the smallest common denominator.
-fn on_common_denominator(granules: usize, parts: Vec<(u32, Score)>) -> Result<(u32, Vec<Scaled>), FuzzyError> {
+fn on_common_denominator(
+    granules: usize,
+    parts: Vec<(u32, Score)>,
+) -> Result<(u32, Vec<Scaled>), FuzzyError> {
     let mut nodes = Vec::with_capacity(parts.len());
     let mut common = 1_u32;
     for (weight, part) in parts {

@@ -110,7 +110,9 @@ fn a_fuzzy_range_is_enclosed_by_its_steps() {
     assert!(FuzzyRing::new(Vector2::zeros(), over(2.0, 3.0), over(1.0, 4.0)).is_err());
     let initial = IntervalBox::from([over(-5.0, 5.0); 2]);
     let area = |upper: f64, lower: f64| std::f64::consts::PI * (upper * upper - lower * lower);
-    for (numerator, (lower, upper)) in [(1.0, 4.0), (1.25, 3.75), (1.5, 3.5), (1.75, 3.25), (2.0, 3.0)].iter().enumerate() {
+    for (numerator, (lower, upper)) in
+        [(1.0, 4.0), (1.25, 3.75), (1.5, 3.5), (1.75, 3.25), (2.0, 3.0)].iter().enumerate()
+    {
         let cut = pave(&fuzzy.cut(grade(numerator as u32, 4)), initial, &Options::new(0.2)).unwrap();
         assert!(cut.inner_volume().upper() <= area(*upper, *lower));
         assert!(cut.outer_volume().lower() >= area(*upper, *lower));

@@ -22,7 +22,11 @@ impl<const N: usize> FuzzyRing<N> {
     ///
     /// # Errors
     /// [`FuzzyError::Core`] when the core is empty or not inside of the support, or when they are not bounded.
-    pub fn new(centre: SVector<f64, N>, support: Interval, core: Interval) -> Result<FuzzyRing<N>, FuzzyError> {
+    pub fn new(
+        centre: SVector<f64, N>,
+        support: Interval,
+        core: Interval,
+    ) -> Result<FuzzyRing<N>, FuzzyError> {
         if core.is_empty() || !core.is_subset_of(support) || !support.is_bounded() {
             return Err(FuzzyError::Core);
         }

@@ -64,9 +64,7 @@ impl Polygon {
             return Err(PolygonError::TooFewCorners { corners: corners.len() });
         }
         match corners.iter().position(|corner| !(corner.x.is_finite() && corner.y.is_finite())) {
-            Some(index) => {
-                Err(PolygonError::NotFinite { index, x: corners[index].x, y: corners[index].y })
-            }
+            Some(index) => Err(PolygonError::NotFinite { index, x: corners[index].x, y: corners[index].y }),
             None => Ok(Polygon { corners }),
         }
     }

@@ -41,16 +41,20 @@ pub struct QIntersection<S, L> {
 impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for QIntersection<S, L> {
     fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         let separators = self.separators.as_ref();
-        with_boxes(separators, |separator| separator.inner(domain), |boxes| {
-            in_at_least(self.outliers.saturating_add(1), boxes, domain)
-        })
+        with_boxes(
+            separators,
+            |separator| separator.inner(domain),
+            |boxes| in_at_least(self.outliers.saturating_add(1), boxes, domain),
+        )
     }
 
     fn outer(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         let separators = self.separators.as_ref();
-        with_boxes(separators, |separator| separator.outer(domain), |boxes| {
-            in_at_least(separators.len().saturating_sub(self.outliers), boxes, domain)
-        })
+        with_boxes(
+            separators,
+            |separator| separator.outer(domain),
+            |boxes| in_at_least(separators.len().saturating_sub(self.outliers), boxes, domain),
+        )
     }
 
     fn separate(&self, domain: IntervalBox<N>) -> Separation<N> {

@@ -68,7 +68,8 @@ impl<const N: usize> Ring<N> {
     ///
     /// Bounds below zero count as zero. An interval that is empty is not known, like a centre that is not finite.
     pub fn with_uncertain_range(centre: SVector<f64, N>, lower: Interval, upper: Interval) -> Ring<N> {
-        let ring = Ring::between_ranges(centre, (lower.lower(), lower.upper()), (upper.lower(), upper.upper()));
+        let ring =
+            Ring::between_ranges(centre, (lower.lower(), lower.upper()), (upper.lower(), upper.upper()));
         if lower.is_empty() || upper.is_empty() { Ring { kind: Kind::Unknown, ..ring } } else { ring }
     }
 
