@@ -34,6 +34,7 @@ pub mod figure;
 pub mod fuzzy;
 mod interval;
 mod interval_box;
+mod interval_matrix;
 mod membership;
 pub mod paving;
 mod reverse;
@@ -44,8 +45,12 @@ mod serialization;
 mod set;
 #[cfg(test)]
 mod strategies;
+mod text;
 
+pub use comparison::Overlap;
 pub use error::IntervalError;
 pub use interval::Interval;
 pub use interval_box::{Difference, IntervalBox};
+pub use interval_matrix::IntervalMatrix;
 pub use membership::Membership;
+pub use text::ParseIntervalError;
