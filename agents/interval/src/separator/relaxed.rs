@@ -1,7 +1,7 @@
 //! The separator of a relaxed intersection, which tolerates a number of outliers.
 
 use super::{Separation, Separator};
-use crate::interval::Interval;
+use crate::contractor::relaxed_intersection_of_boxes;
 use crate::interval_box::IntervalBox;
 use std::marker::PhantomData;
 
@@ -80,56 +80,4 @@ pub(crate) fn with_boxes<const N: usize, S, R>(
         *contracted = contract(separator);
     }
     then(&boxes[..separators.len()])
-}
-
-/// A box that holds every vector of `domain` that is in at least `enough` of the boxes, which are inside `domain`.
-fn in_at_least<const N: usize>(
-    enough: usize,
-    boxes: &[IntervalBox<N>],
-    domain: IntervalBox<N>,
-) -> IntervalBox<N> {
-    if enough == 0 {
-        return domain;
-    }
-    let held = boxes.iter().filter(|held| !held.is_empty());
-    if held.clone().count() < enough {
-        return IntervalBox::EMPTY;
-    }
-    let mut left = domain;
-    for axis in 0..N {
-        left[axis] = overlap(enough, held.clone().map(|held| held[axis]));
-        if left[axis].is_empty() {
-            return IntervalBox::EMPTY;
-        }
-    }
-    left
-}
-
-/// The hull of the numbers that are in at least `enough` of the intervals, of which none is empty.
-fn overlap(enough: usize, intervals: impl Iterator<Item = Interval> + Clone) -> Interval {
-    let count = intervals.clone().count();
-    let (mut few_lowers, mut few_uppers) = ([0.0; FEW], [0.0; FEW]);
-    let (mut many_lowers, mut many_uppers) = (Vec::new(), Vec::new());
-    let (lowers, uppers) = if count <= FEW {
-        (&mut few_lowers[..count], &mut few_uppers[..count])
-    } else {
-        many_lowers.resize(count, 0.0);
-        many_uppers.resize(count, 0.0);
-        (&mut many_lowers[..], &mut many_uppers[..])
-    };
-    for (index, interval) in intervals.enumerate() {
-        (lowers[index], uppers[index]) = (interval.lower(), interval.upper());
-    }
-    lowers.sort_unstable_by(f64::total_cmp);
-    uppers.sort_unstable_by(f64::total_cmp);
-
-    // At a lower bound, as many intervals hold it as have begun by then and not ended before it.
-    let ended_before = |x: f64| uppers.partition_point(|&upper| upper < x);
-    let first = (0..count).find(|&begun| begun + 1 - ended_before(lowers[begun]) >= enough);
-    let begun_by = |x: f64| lowers.partition_point(|&lower| lower <= x);
-    let last = (0..count).rev().find(|&ended| begun_by(uppers[ended]) - ended >= enough);
-    match (first, last) {
-        (Some(first), Some(last)) => Interval::from_bounds(lowers[first], uppers[last]),
-        _ => Interval::EMPTY,
-    }
 }
