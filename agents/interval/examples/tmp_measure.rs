@@ -6,7 +6,7 @@ fn main() {
     let ring = |x, y, a, b| Ring::new(Vector2::new(x, y), Interval::new(a, b).unwrap());
     let rings = [ring(3.0, 3.0, 3.0, 4.0), ring(-3.0, -1.0, 5.0, 6.0), ring(-2.0, 2.0, 4.0, 5.0)];
     let initial = IntervalBox::from([Interval::new(-10.0, 10.0).unwrap(); 2]);
-    let s = intersection(rings);
+    let s = intersection_of(rings);
     for eps in [0.05, 0.04, 0.03] {
         let p = pave(&s, initial, &Options::new(eps)).unwrap();
         println!(

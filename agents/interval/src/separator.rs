@@ -8,8 +8,8 @@
 //! What is in both is undecided. [`pave`](crate::paving::pave) bisects that, and cuts again.
 //!
 //! Ready-made: [`Ring`] (a range to a landmark), [`HalfSpace`], [`Polygon`] (a room), [`InBox`]. Two contractors make a
-//! separator with [`from_contractors`]. They are combined by [`Separator::and`], [`Separator::or`],
-//! [`Separator::minus`] and [`Separator::complement`]; lists by [`intersection`], [`union`] and the relaxed
+//! separator with [`from_contractors`]. They are combined by [`Separator::intersection`], [`Separator::union`],
+//! [`Separator::difference`] and [`Separator::complement`]; lists by [`intersection_of`], [`union_of`] and the relaxed
 //! [`q_intersection`], which tolerates outliers.
 //!
 //! ```
@@ -19,7 +19,7 @@
 //!
 //! // 3 m to 4 m from a beacon, but not in the harbour.
 //! let harbour = InBox::new(IntervalBox::from([Interval::new(0.0, 9.0)?, Interval::new(0.0, 9.0)?]));
-//! let place = Ring::new(Vector2::new(0.0, 0.0), Interval::new(3.0, 4.0)?).minus(harbour);
+//! let place = Ring::new(Vector2::new(0.0, 0.0), Interval::new(3.0, 4.0)?).difference(harbour);
 //! let near = IntervalBox::from([Interval::new(-2.0, 9.0)?, Interval::new(0.0, 9.0)?]);
 //! assert_eq!(format!("{:.3}", place.outer(near)), "[-2.000, 0.000] x [2.236, 4.000]");
 //! # Ok::<(), shoal_interval::IntervalError>(())
@@ -36,10 +36,10 @@ mod polygon;
 mod relaxed;
 mod ring;
 
-pub use algebra::{And, Complement, FromContractors, Minus, Or, from_contractors};
+pub use algebra::{Complement, Difference, FromContractors, Intersection, Union, from_contractors};
 pub use half_space::HalfSpace;
 pub use in_box::InBox;
-pub use list::{Intersection, Union, intersection, union};
+pub use list::{IntersectionOf, UnionOf, intersection_of, union_of};
 pub use polygon::{Polygon, PolygonError};
 pub(crate) use relaxed::with_boxes;
 pub use relaxed::{QIntersection, q_intersection};
@@ -81,27 +81,27 @@ pub trait Separator<const N: usize> {
     }
 
     /// The separator of the vectors that are in both sets.
-    fn and<S: Separator<N>>(self, other: S) -> And<Self, S>
+    fn intersection<S: Separator<N>>(self, other: S) -> Intersection<Self, S>
     where
         Self: Sized,
     {
-        And::new(self, other)
+        Intersection::new(self, other)
     }
 
     /// The separator of the vectors that are in at least one of both sets.
-    fn or<S: Separator<N>>(self, other: S) -> Or<Self, S>
+    fn union<S: Separator<N>>(self, other: S) -> Union<Self, S>
     where
         Self: Sized,
     {
-        Or::new(self, other)
+        Union::new(self, other)
     }
 
     /// The separator of the vectors that are in this set and not in the other.
-    fn minus<S: Separator<N>>(self, other: S) -> Minus<Self, S>
+    fn difference<S: Separator<N>>(self, other: S) -> Difference<Self, S>
     where
         Self: Sized,
     {
-        And::new(self, Complement::new(other))
+        Intersection::new(self, Complement::new(other))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::contractor::from_fn;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
 use crate::membership::Membership;
-use crate::separator::{InBox, Ring, Separator, intersection, q_intersection, union};
+use crate::separator::{InBox, Ring, Separator, intersection_of, q_intersection, union_of};
 use nalgebra::{SVector, Vector2};
 use proptest::prelude::*;
 
@@ -40,7 +40,7 @@ fn fills(paving: &Paving<2>, initial: IntervalBox<2>) {
 
 #[test]
 fn three_beacons_within_the_promised_bracket() {
-    let paving = pave(&intersection(beacons()), square(10.0), &Options::new(0.05)).unwrap();
+    let paving = pave(&intersection_of(beacons()), square(10.0), &Options::new(0.05)).unwrap();
     let (inner, outer) = (paving.inner_volume(), paving.outer_volume());
     assert!(inner.lower() >= 0.4061 && outer.upper() <= 0.4379, "{inner} {outer}");
     assert!(inner.upper() <= 0.422_833_2 && 0.422_833_2 <= outer.lower());
@@ -56,12 +56,12 @@ fn every_algorithm_encloses_the_same_set() {
     let initial = square(10.0);
     let options = Options::new(0.2);
     let all = from_test_fn(|domain: &IntervalBox<2>| relaxed(&rings[..], 0).test(domain));
-    let contractor = from_fn(|domain| intersection(rings).outer(domain));
+    let contractor = from_fn(|domain| intersection_of(rings).outer(domain));
     let pavings = [
         sivia(&all, initial, &options).unwrap(),
         rsivia(&rings, 0, initial, &options).unwrap(),
         csivia(&contractor, &all, initial, &options).unwrap(),
-        pave(&intersection(rings), initial, &options).unwrap(),
+        pave(&intersection_of(rings), initial, &options).unwrap(),
         pave(&q_intersection(rings, 0), initial, &options).unwrap(),
     ];
     for paving in &pavings {
@@ -79,7 +79,7 @@ fn every_algorithm_encloses_the_same_set() {
 
 #[test]
 fn threads_change_nothing() {
-    let separator = union(beacons());
+    let separator = union_of(beacons());
     let test = relaxed(beacons(), 1);
     for budget in [1_000_000, 1_000, 333] {
         let options = Options::new(0.05).with_budget(budget);
@@ -96,7 +96,7 @@ fn threads_change_nothing() {
 fn a_spent_budget_is_said_and_proves_what_it_can() {
     for budget in [0, 1, 2, 10, 100] {
         let options = Options::new(0.01).with_budget(budget);
-        let paving = pave(&union(beacons()), square(10.0), &options).unwrap();
+        let paving = pave(&union_of(beacons()), square(10.0), &options).unwrap();
         let Stopped::BudgetSpent { left } = paving.stopped() else {
             panic!("{budget} boxes cannot be enough")
         };
@@ -160,7 +160,7 @@ fn membership_of_points() {
     assert_eq!(paving.membership(&Vector2::new(-1.0, 3.0)), Membership::Undecided);
     assert_eq!(paving.membership(&Vector2::new(11.0, 3.0)), Membership::Undecided);
     assert_eq!(paving.membership(&Vector2::new(f64::NAN, 3.0)), Membership::Undecided);
-    let apart = union([Ring::disc(Vector2::new(-5.0, 0.0), 1.0), Ring::disc(Vector2::new(5.0, 0.0), 1.0)]);
+    let apart = union_of([Ring::disc(Vector2::new(-5.0, 0.0), 1.0), Ring::disc(Vector2::new(5.0, 0.0), 1.0)]);
     assert_eq!(pave(&apart, square(10.0), &Options::new(0.2)).unwrap().parts(), 2);
 }
 

@@ -70,22 +70,22 @@ impl<const N: usize, S: Separator<N>> Separator<N> for Complement<S> {
     }
 }
 
-/// The separator of an intersection, made by [`Separator::and`].
+/// The separator of an intersection, made by [`Separator::intersection`].
 ///
 /// The outer contractors work one after the other, each on what the first has left; the inner box is the hull of both.
 #[derive(Debug, Clone, Copy)]
-pub struct And<A, B> {
+pub struct Intersection<A, B> {
     first: A,
     second: B,
 }
 
-impl<A, B> And<A, B> {
-    pub(super) fn new(first: A, second: B) -> And<A, B> {
-        And { first, second }
+impl<A, B> Intersection<A, B> {
+    pub(super) fn new(first: A, second: B) -> Intersection<A, B> {
+        Intersection { first, second }
     }
 }
 
-impl<const N: usize, A: Separator<N>, B: Separator<N>> Separator<N> for And<A, B> {
+impl<const N: usize, A: Separator<N>, B: Separator<N>> Separator<N> for Intersection<A, B> {
     #[inline]
     fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         self.first.inner(domain) | self.second.inner(domain)
@@ -97,20 +97,20 @@ impl<const N: usize, A: Separator<N>, B: Separator<N>> Separator<N> for And<A, B
     }
 }
 
-/// The separator of a union, made by [`Separator::or`]: that of an intersection with inner and outer exchanged.
+/// The separator of a union, made by [`Separator::union`]: that of an intersection with inner and outer exchanged.
 #[derive(Debug, Clone, Copy)]
-pub struct Or<A, B> {
+pub struct Union<A, B> {
     first: A,
     second: B,
 }
 
-impl<A, B> Or<A, B> {
-    pub(super) fn new(first: A, second: B) -> Or<A, B> {
-        Or { first, second }
+impl<A, B> Union<A, B> {
+    pub(super) fn new(first: A, second: B) -> Union<A, B> {
+        Union { first, second }
     }
 }
 
-impl<const N: usize, A: Separator<N>, B: Separator<N>> Separator<N> for Or<A, B> {
+impl<const N: usize, A: Separator<N>, B: Separator<N>> Separator<N> for Union<A, B> {
     #[inline]
     fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         self.second.inner(self.first.inner(domain))
@@ -122,5 +122,5 @@ impl<const N: usize, A: Separator<N>, B: Separator<N>> Separator<N> for Or<A, B>
     }
 }
 
-/// The separator of a difference, made by [`Separator::minus`].
-pub type Minus<A, B> = And<A, Complement<B>>;
+/// The separator of a difference, made by [`Separator::difference`].
+pub type Difference<A, B> = Intersection<A, Complement<B>>;

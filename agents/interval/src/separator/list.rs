@@ -6,33 +6,33 @@ use std::marker::PhantomData;
 
 /// The separator of the vectors that are in every set of a list: an array, a slice or a vector of separators.
 ///
-/// No set at all gives the universe. Sets of different kinds are joined with [`Separator::and`], or boxed.
-pub fn intersection<S, L: AsRef<[S]>>(separators: L) -> Intersection<S, L> {
-    Intersection { separators, kind: PhantomData }
+/// No set at all gives the universe. Sets of different kinds are joined with [`Separator::intersection`], or boxed.
+pub fn intersection_of<S, L: AsRef<[S]>>(separators: L) -> IntersectionOf<S, L> {
+    IntersectionOf { separators, kind: PhantomData }
 }
 
 /// The separator of the vectors that are in at least one set of a list: an array, a slice or a vector of separators.
 ///
-/// No set at all gives the empty set. Sets of different kinds are joined with [`Separator::or`], or boxed.
-pub fn union<S, L: AsRef<[S]>>(separators: L) -> Union<S, L> {
-    Union { separators, kind: PhantomData }
+/// No set at all gives the empty set. Sets of different kinds are joined with [`Separator::union`], or boxed.
+pub fn union_of<S, L: AsRef<[S]>>(separators: L) -> UnionOf<S, L> {
+    UnionOf { separators, kind: PhantomData }
 }
 
-/// The separator made of a list by [`intersection`].
+/// The separator made of a list by [`intersection_of`].
 #[derive(Debug, Clone, Copy)]
-pub struct Intersection<S, L> {
+pub struct IntersectionOf<S, L> {
     separators: L,
     kind: PhantomData<fn() -> S>,
 }
 
-/// The separator made of a list by [`union`].
+/// The separator made of a list by [`union_of`].
 #[derive(Debug, Clone, Copy)]
-pub struct Union<S, L> {
+pub struct UnionOf<S, L> {
     separators: L,
     kind: PhantomData<fn() -> S>,
 }
 
-impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for Intersection<S, L> {
+impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for IntersectionOf<S, L> {
     #[inline]
     fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         in_any(self.separators.as_ref(), domain, S::inner)
@@ -44,7 +44,7 @@ impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for Intersecti
     }
 }
 
-impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for Union<S, L> {
+impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for UnionOf<S, L> {
     #[inline]
     fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
         in_all(self.separators.as_ref(), domain, S::inner)

@@ -7,8 +7,8 @@ use std::marker::PhantomData;
 
 /// The separator of the vectors that are in all sets of a list but at most `outliers` of them.
 ///
-/// With no outlier this is the [`intersection`](super::intersection), with one less than there are sets their
-/// [`union`](super::union), with as many as there are sets the universe. A vector is not in the relaxed set of `m` sets
+/// With no outlier this is their [`intersection_of`](super::intersection_of), with one less than there are sets their
+/// [`union_of`](super::union_of), with as many as there are sets the universe. A vector is not in the relaxed set of `m` sets
 /// with `q` outliers when it is in at least `q + 1` of the complements, so the inner contractor relaxes the inner
 /// boxes with `m - q - 1` outliers.
 ///
@@ -44,7 +44,13 @@ impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for QIntersect
         with_boxes(
             separators,
             |separator| separator.inner(domain),
-            |boxes| in_at_least(self.outliers.saturating_add(1), boxes, domain),
+            |boxes| {
+                // In `outliers + 1` of `m` complements is in all but `m - outliers - 1` of them, if there are so many.
+                match separators.len().checked_sub(self.outliers.saturating_add(1)) {
+                    Some(relaxed) => relaxed_intersection_of_boxes(boxes, relaxed) & domain,
+                    None => IntervalBox::EMPTY,
+                }
+            },
         )
     }
 
@@ -53,7 +59,7 @@ impl<const N: usize, S: Separator<N>, L: AsRef<[S]>> Separator<N> for QIntersect
         with_boxes(
             separators,
             |separator| separator.outer(domain),
-            |boxes| in_at_least(separators.len().saturating_sub(self.outliers), boxes, domain),
+            |boxes| relaxed_intersection_of_boxes(boxes, self.outliers) & domain,
         )
     }
 

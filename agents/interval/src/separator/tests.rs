@@ -157,17 +157,17 @@ proptest! {
             let [Some(in_a), Some(in_b), Some(in_c), Some(in_d)] = members else { continue };
             let count = [in_a, in_b, in_c, in_d].into_iter().filter(|&member| member).count();
             keeps(&a.complement(), domain, point, Some(!in_a))?;
-            keeps(&a.and(b), domain, point, Some(in_a && in_b))?;
-            keeps(&a.or(b), domain, point, Some(in_a || in_b))?;
-            keeps(&a.minus(b), domain, point, Some(in_a && !in_b))?;
-            keeps(&intersection(rings), domain, point, Some(count == 4))?;
-            keeps(&union(rings), domain, point, Some(count > 0))?;
+            keeps(&a.intersection(b), domain, point, Some(in_a && in_b))?;
+            keeps(&a.union(b), domain, point, Some(in_a || in_b))?;
+            keeps(&a.difference(b), domain, point, Some(in_a && !in_b))?;
+            keeps(&intersection_of(rings), domain, point, Some(count == 4))?;
+            keeps(&union_of(rings), domain, point, Some(count > 0))?;
             keeps(&q_intersection(rings, outliers), domain, point, Some(count + outliers >= 4))?;
             let boxed: Vec<Box<dyn Separator<2>>> = rings.iter().map(|&ring| Box::new(ring) as _).collect();
             keeps(&q_intersection(&boxed[..], outliers), domain, point, Some(count + outliers >= 4))?;
         }
         prop_assert_eq!(q_intersection(rings, 0).outer(domain).is_empty(), intersection_of_hulls_is_empty(&rings, domain));
-        prop_assert_eq!(q_intersection(rings, 3).outer(domain), union(rings).outer(domain));
+        prop_assert_eq!(q_intersection(rings, 3).outer(domain), union_of(rings).outer(domain));
         prop_assert_eq!(q_intersection(rings, 4).outer(domain), domain);
     }
 
@@ -249,9 +249,9 @@ fn empty_sets_and_empty_boxes() {
     assert_eq!(Ring::new(Vector2::zeros(), over(-2.0, -1.0)).separate(domain), nothing);
     assert_eq!(Ring::disc(Vector2::zeros(), -1.0).separate(domain), nothing);
     assert_eq!(InBox::new(IntervalBox::EMPTY).separate(domain), nothing);
-    assert_eq!(union::<Ring<2>, _>([]).separate(domain), nothing);
+    assert_eq!(union_of::<Ring<2>, _>([]).separate(domain), nothing);
     let everything = Separation { inner: IntervalBox::EMPTY, outer: domain };
-    assert_eq!(intersection::<Ring<2>, _>([]).separate(domain), everything);
+    assert_eq!(intersection_of::<Ring<2>, _>([]).separate(domain), everything);
     assert_eq!(Ring::new(Vector2::zeros(), Interval::ENTIRE).separate(domain), everything);
     let square = Polygon::new(vec![
         Vector2::new(0.0, 0.0),
