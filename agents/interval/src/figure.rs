@@ -54,8 +54,17 @@ pub struct Figure {
     legend: Vec<(Class, String)>,
     /// Shapes in the units of the axes, `y` up.
     shapes: String,
-    /// Labels, which must not be stretched: where, in the units of the axes, and what.
-    labels: Vec<([f64; 2], String)>,
+    labels: Vec<Label>,
+}
+
+/// Words, which unlike shapes must not be stretched.
+#[derive(Debug, Clone, PartialEq)]
+struct Label {
+    /// Where they begin, in the units of the axes.
+    at: [f64; 2],
+    text: String,
+    /// Whether a dot marks the place and the words stand beside it.
+    dotted: bool,
 }
 
 impl Figure {
@@ -123,7 +132,8 @@ impl Figure {
             svg,
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}">"#
         );
-        let _ = writeln!(svg, "<style>{}</style>", class::STYLE);
+        let pixel = ((x.upper() - x.lower()) / self.width_px).min((y.upper() - y.lower()) / self.height_px);
+        let _ = writeln!(svg, "<style>{}</style>", class::style(pixel));
         let _ = writeln!(svg, r#"<rect class="paper" width="{width}" height="{height}"/>"#);
         let _ = writeln!(
             svg,
@@ -135,22 +145,23 @@ impl Figure {
             x.upper() - x.lower(),
             y.upper() - y.lower(),
         );
-        let _ = writeln!(svg, "<g transform=\"scale(1 -1)\">\n{}</g>\n</svg>", self.shapes);
+        let _ = writeln!(svg, "<g class=\"shapes\" transform=\"scale(1 -1)\">\n{}</g>\n</svg>", self.shapes);
         let place = |[at_x, at_y]: [f64; 2]| {
             (
                 left + (at_x - x.lower()) / (x.upper() - x.lower()) * self.width_px,
                 top + (y.upper() - at_y) / (y.upper() - y.lower()) * self.height_px,
             )
         };
-        for (at, label) in &self.labels {
-            let (at_x, at_y) = place(*at);
-            let _ = writeln!(
-                svg,
-                r#"<circle class="dot" cx="{at_x:.2}" cy="{at_y:.2}" r="3"/><text class="label" x="{:.2}" y="{:.2}">{}</text>"#,
-                at_x + 6.0,
-                at_y - 6.0,
-                escaped(label)
-            );
+        for label in &self.labels {
+            let (at_x, at_y) = place(label.at);
+            let beside = if label.dotted { 6.0 } else { 0.0 };
+            if label.dotted {
+                let _ = writeln!(svg, r#"<circle class="dot" cx="{at_x:.2}" cy="{at_y:.2}" r="3"/>"#);
+            }
+            let (from_left, from_top) = (at_x + beside, at_y - beside);
+            let text = escaped(&label.text);
+            let _ =
+                writeln!(svg, r#"<text class="label" x="{from_left:.2}" y="{from_top:.2}">{text}</text>"#);
         }
         if let Some(labels) = &self.axis_labels {
             axes::write(&mut svg, &self.view, [left, top, self.width_px, self.height_px], labels);

@@ -1,6 +1,6 @@
 //! What a figure is made of: boxes, circles, lines, points.
 
-use super::{Class, Figure};
+use super::{Class, Figure, Label};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
 use crate::paving::Paving;
@@ -53,7 +53,15 @@ impl Figure {
     /// Adds a dot with a label beside it; the label may be empty.
     pub fn point(mut self, at: Vector2<f64>, label: &str) -> Figure {
         if is_finite(&at) {
-            self.labels.push(([at.x, at.y], label.to_owned()));
+            self.labels.push(Label { at: [at.x, at.y], text: label.to_owned(), dotted: true });
+        }
+        self
+    }
+
+    /// Adds words that begin at a point.
+    pub fn text(mut self, at: Vector2<f64>, words: &str) -> Figure {
+        if is_finite(&at) {
+            self.labels.push(Label { at: [at.x, at.y], text: words.to_owned(), dotted: false });
         }
         self
     }
