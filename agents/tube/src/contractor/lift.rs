@@ -50,7 +50,7 @@ impl<const N: usize> Tube<IntervalBox<N>> {
 /// lift([&mut voltage_v, &mut current_a, &mut power_w], |[voltage, current, power]| {
 ///     contract_product(voltage, current, power);
 /// })?;
-/// assert_eq!(current_a.gate(2), Some(Interval::new(1.0, 1.2)?));
+/// assert_eq!(format!("{:.3}", current_a.at(2.0)?), "[1.000, 1.200]");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
