@@ -12,6 +12,7 @@ mod launch;
 mod memory;
 mod observers;
 mod processes;
+mod processor;
 mod progress;
 mod record_info;
 mod run;
@@ -25,11 +26,22 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use cli::{Cli, Command, RecordCommand};
-use failure::While;
+use exit::Exit;
+use failure::{Failure, While};
 use shoal_bus::run_dir::RunDir;
 
 fn main() -> ExitCode {
-    let outcome = match &Cli::parse().command {
+    match processor::check().and_then(|()| command(&Cli::parse().command)) {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            eprintln!("{}", failure.message.trim_end());
+            failure.exit.into()
+        }
+    }
+}
+
+fn command(command: &Command) -> Result<Exit, Failure> {
+    match command {
         Command::Run(args) => run::run(args),
         Command::Tap(args) => tap::run(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
@@ -38,13 +50,6 @@ fn main() -> ExitCode {
         Command::Auv(args) => auv_process::run(args),
         Command::Channel { run } => {
             RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))
-        }
-    };
-    match outcome {
-        Ok(exit) => exit.into(),
-        Err(failure) => {
-            eprintln!("{}", failure.message.trim_end());
-            failure.exit.into()
         }
     }
 }

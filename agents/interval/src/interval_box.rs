@@ -3,7 +3,16 @@
 use crate::interval::Interval;
 use nalgebra::SVector;
 use std::fmt;
-use std::ops::{Add, BitAnd, BitOr, Index, IndexMut, Mul, Neg, Sub};
+use std::ops::{BitAnd, BitOr, Index, IndexMut};
+
+mod arithmetic;
+mod bisection;
+mod difference;
+mod measures;
+mod relations;
+mod vectors;
+
+pub use difference::Difference;
 
 /// An axis-aligned box of `N` dimensions: the vectors whose every coordinate is in the interval of its axis.
 ///
@@ -49,30 +58,10 @@ impl<const N: usize> IntervalBox<N> {
         self.is_empty() || self.sides.iter().all(|side| side.is_bounded())
     }
 
-    /// The longest side, rounded up; NaN for the empty box. Source: seed 001, equation (2.22).
-    pub fn width(&self) -> f64 {
-        if self.is_empty() {
-            return f64::NAN;
-        }
-        self.sides.iter().map(|side| side.width()).fold(0.0, f64::max)
-    }
-
     /// A vector near the middle, always finite and inside the box; all NaN for the empty box.
     pub fn mid(&self) -> SVector<f64, N> {
         let empty = self.is_empty();
         SVector::from_fn(|axis, _| if empty { f64::NAN } else { self.sides[axis].mid() })
-    }
-
-    /// Whether `vector` is in the box. One with a NaN or an infinite coordinate is in none.
-    #[inline]
-    pub fn contains(&self, vector: &SVector<f64, N>) -> bool {
-        self.sides.iter().zip(vector.iter()).all(|(side, &coordinate)| side.contains(coordinate))
-    }
-
-    /// Whether every vector of `self` is in `other`. The empty box is inside every box.
-    #[inline]
-    pub fn is_subset_of(&self, other: &IntervalBox<N>) -> bool {
-        self.is_empty() || self.sides.iter().zip(other.iter()).all(|(side, &outer)| side.is_subset_of(outer))
     }
 
     /// The vectors that are in both boxes; also written `x & y`. Exact.
@@ -91,12 +80,6 @@ impl<const N: usize> IntervalBox<N> {
             return *self;
         }
         IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] | other.sides[axis]) }
-    }
-
-    /// Everything within `radius` of the box along each axis, by the rules of [`Interval::inflate`].
-    #[inline]
-    pub fn inflate(&self, radius: f64) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| side.inflate(radius)) }.or_empty()
     }
 
     /// The sides, in the order of the axes.
@@ -152,43 +135,6 @@ impl<'a, const N: usize> IntoIterator for &'a IntervalBox<N> {
     }
 }
 
-impl<const N: usize> Add for IntervalBox<N> {
-    type Output = IntervalBox<N>;
-
-    #[inline]
-    fn add(self, other: IntervalBox<N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] + other.sides[axis]) }.or_empty()
-    }
-}
-
-impl<const N: usize> Sub for IntervalBox<N> {
-    type Output = IntervalBox<N>;
-
-    #[inline]
-    fn sub(self, other: IntervalBox<N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] - other.sides[axis]) }.or_empty()
-    }
-}
-
-impl<const N: usize> Neg for IntervalBox<N> {
-    type Output = IntervalBox<N>;
-
-    #[inline]
-    fn neg(self) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| -side) }
-    }
-}
-
-/// Every side times the same set of numbers: a velocity box times a duration.
-impl<const N: usize> Mul<Interval> for IntervalBox<N> {
-    type Output = IntervalBox<N>;
-
-    #[inline]
-    fn mul(self, factor: Interval) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| side * factor) }.or_empty()
-    }
-}
-
 impl<const N: usize> BitAnd for IntervalBox<N> {
     type Output = IntervalBox<N>;
 
@@ -224,33 +170,4 @@ impl<const N: usize> fmt::Display for IntervalBox<N> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::Vector2;
-
-    fn unit() -> IntervalBox<2> {
-        IntervalBox::from([Interval::new(0.0, 1.0).unwrap(); 2])
-    }
-
-    #[test]
-    fn one_empty_side_empties_the_box() {
-        let mut flat = unit();
-        flat[1] = Interval::EMPTY;
-        assert!(flat.is_empty() && flat.width().is_nan() && flat.mid().iter().all(|x| x.is_nan()));
-        assert_eq!(flat & unit(), IntervalBox::EMPTY);
-        assert_eq!(flat | unit(), unit());
-        assert_eq!(flat + unit(), IntervalBox::EMPTY);
-        assert!(flat.is_subset_of(&unit()));
-    }
-
-    #[test]
-    fn sets_and_sums() {
-        let moved = unit() + IntervalBox::centred(&Vector2::new(0.5, 2.0), 0.0);
-        assert!((unit() & moved).is_empty());
-        assert_eq!((unit() | moved).width(), 3.0);
-        assert_eq!(moved.mid(), Vector2::new(1.0, 2.5));
-        assert_eq!((unit() - unit()).width(), 2.0);
-        assert_eq!((unit() * Interval::new(-1.0, 2.0).unwrap()).width(), 3.0);
-        assert_eq!(format!("{:.1}", unit().inflate(0.5)), "[-0.5, 1.5] x [-0.5, 1.5]");
-    }
-}
+mod tests;

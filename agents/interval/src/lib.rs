@@ -25,11 +25,14 @@
 //! Source: seed 001, chapter 2.3.
 
 mod arithmetic;
+mod bisection;
+mod comparison;
 pub mod contractor;
 mod elementary;
 mod error;
 mod interval;
 mod interval_box;
+mod membership;
 mod reverse;
 mod rounding;
 pub mod separator;
@@ -41,4 +44,5 @@ mod strategies;
 
 pub use error::IntervalError;
 pub use interval::Interval;
-pub use interval_box::IntervalBox;
+pub use interval_box::{Difference, IntervalBox};
+pub use membership::Membership;

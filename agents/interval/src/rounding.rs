@@ -2,15 +2,18 @@
 //!
 //! The operation is done once, to nearest, and its exact error is then computed (error-free transformations). Only the
 //! sign of the error decides whether to take one step to the neighbouring number, so an exact result stays as it is, and
-//! an inexact one is the tightest bound that exists. Where the error itself could be lost to underflow, the step is taken
-//! without asking.
+//! an inexact one is the tightest bound that exists, subnormal ones included. Which way an error falls is a coin toss that
+//! no processor predicts, so the step is arithmetic on the bits and not a branch.
 //!
 //! Arguments are never NaN. Zero times infinity is zero, as bounds need it: the infinity is a missing bound, not a number.
 //!
 //! Source: J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd edition, chapter 4.
 
-/// Above this size an operation's error is a number that `f64` can hold; below it may vanish.
-const ERROR_IS_EXACT_ABOVE: f64 = f64::from_bits((1023 - 960) << 52);
+mod extreme;
+
+/// Above 2^-960 the error of a product is a number that `f64` can hold; below it may vanish.
+const ERROR_IS_EXACT_ABOVE_BITS: u64 = (1023 - 960) << 52;
+const SIGN_BIT: u64 = 1 << 63;
 
 /// `a + b`, rounded down. The infinities that bounds may hold (`-inf` on the left side of an interval) stay.
 #[inline]
@@ -18,17 +21,13 @@ pub(crate) fn add_down(a: f64, b: f64) -> f64 {
     let sum = a + b;
     let b_seen = sum - a;
     let error = (a - (sum - b_seen)) + (b - b_seen);
-    // The error is NaN or infinite when something overflowed; then the step turns `+inf` into the largest number.
-    if (0.0..=f64::MAX).contains(&error) { sum } else { sum.next_down() }
+    if error.is_finite() { step_down_if(error < 0.0, sum) } else { extreme::add_down(a, b) }
 }
 
 /// `a + b`, rounded up.
 #[inline]
 pub(crate) fn add_up(a: f64, b: f64) -> f64 {
-    let sum = a + b;
-    let b_seen = sum - a;
-    let error = (a - (sum - b_seen)) + (b - b_seen);
-    if (f64::MIN..=0.0).contains(&error) { sum } else { sum.next_up() }
+    -add_down(-a, -b)
 }
 
 /// `a - b`, rounded down.
@@ -47,14 +46,10 @@ pub(crate) fn sub_up(a: f64, b: f64) -> f64 {
 #[inline]
 pub(crate) fn mul_down(a: f64, b: f64) -> f64 {
     let product = a * b;
-    if (ERROR_IS_EXACT_ABOVE..=f64::MAX).contains(&product.abs()) {
-        if a.mul_add(b, -product) < 0.0 { product.next_down() } else { product }
-    } else if a == 0.0 || b == 0.0 {
-        0.0
-    } else if a.is_infinite() || b.is_infinite() {
-        product
+    if has_exact_error(product) {
+        step_down_if(a.mul_add(b, -product) < 0.0, product)
     } else {
-        step_down(product, (a > 0.0) == (b > 0.0))
+        extreme::mul_down(a, b)
     }
 }
 
@@ -68,17 +63,13 @@ pub(crate) fn mul_up(a: f64, b: f64) -> f64 {
 #[inline]
 pub(crate) fn div_down(a: f64, b: f64) -> f64 {
     let quotient = a / b;
-    let sizes = ERROR_IS_EXACT_ABOVE..=f64::MAX;
-    if sizes.contains(&quotient.abs()) && sizes.contains(&a.abs()) {
+    if has_exact_error(quotient) && has_exact_error(a) {
         let remainder = (-quotient).mul_add(b, a);
-        let below = if b > 0.0 { remainder < 0.0 } else { remainder > 0.0 };
-        if below { quotient.next_down() } else { quotient }
-    } else if a == 0.0 || b.is_infinite() {
-        0.0
-    } else if a.is_infinite() {
-        quotient
+        // The remainder's sign is relative to the divisor's: compare the signs, not a product that could underflow.
+        let below = (remainder < 0.0) != (b < 0.0) && remainder != 0.0;
+        step_down_if(below, quotient)
     } else {
-        step_down(quotient, (a > 0.0) == (b > 0.0))
+        extreme::div_down(a, b)
     }
 }
 
@@ -92,12 +83,10 @@ pub(crate) fn div_up(a: f64, b: f64) -> f64 {
 #[inline]
 pub(crate) fn sqrt_down(x: f64) -> f64 {
     let root = x.sqrt();
-    if (ERROR_IS_EXACT_ABOVE..=f64::MAX).contains(&x) {
-        if (-root).mul_add(root, x) < 0.0 { root.next_down() } else { root }
-    } else if x == 0.0 || x.is_infinite() {
-        root
+    if has_exact_error(x) {
+        step_down_if((-root).mul_add(root, x) < 0.0, root)
     } else {
-        root.next_down()
+        extreme::sqrt_down(x)
     }
 }
 
@@ -105,20 +94,28 @@ pub(crate) fn sqrt_down(x: f64) -> f64 {
 #[inline]
 pub(crate) fn sqrt_up(x: f64) -> f64 {
     let root = x.sqrt();
-    if (ERROR_IS_EXACT_ABOVE..=f64::MAX).contains(&x) {
-        if (-root).mul_add(root, x) > 0.0 { root.next_up() } else { root }
-    } else if x == 0.0 || x.is_infinite() {
-        root
+    if has_exact_error(x) {
+        -step_down_if((-root).mul_add(root, x) > 0.0, -root)
     } else {
-        root.next_up()
+        extreme::sqrt_up(x)
     }
 }
 
-/// One step down from a result that overflowed or whose error is unknown, but not past zero when the exact result is
-/// positive.
-#[cold]
-fn step_down(result: f64, exact_is_positive: bool) -> f64 {
-    if exact_is_positive && result == 0.0 { 0.0 } else { result.next_down() }
+/// Whether the size of `x` is such that the error of a product or quotient that it came from can be computed: not tiny,
+/// infinite or NaN.
+#[inline]
+fn has_exact_error(x: f64) -> bool {
+    let size = x.to_bits() & !SIGN_BIT;
+    size.wrapping_sub(ERROR_IS_EXACT_ABOVE_BITS) <= f64::MAX.to_bits() - ERROR_IS_EXACT_ABOVE_BITS
+}
+
+/// `x`, or the next number below it when `step` says so, without a branch. `x` is finite, and not zero if there is a step.
+#[inline]
+fn step_down_if(step: bool, x: f64) -> f64 {
+    let bits = x.to_bits();
+    // One bit less is a step towards zero: down for a positive number, up for a negative one.
+    let down = (bits.cast_signed() >> 63) | 1;
+    f64::from_bits(bits.wrapping_sub((down & -i64::from(step)).cast_unsigned()))
 }
 
 #[cfg(test)]
