@@ -2,6 +2,7 @@
 
 use super::*;
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 fn angles() -> impl Strategy<Value = (f64, f64, f64)> {
     let angle = prop_oneof![
