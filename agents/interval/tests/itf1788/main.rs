@@ -94,7 +94,8 @@ fn a_wrong_expectation_is_noticed() {
         "add [1.0,2.0] [1.0,2.0] = [empty]",
     ] {
         let check = Check::read(line);
-        let (result, tightness) = evaluate(check.operation, &check.operands).expect("an operation that is offered");
+        let (result, tightness) =
+            evaluate(check.operation, &check.operands).expect("an operation that is offered");
         assert!(!tightness.accepts(&result, &check.expected), "{line} gives {result:?}");
     }
     assert_eq!(Tightness::Exact, Tightness::of("add"));

@@ -40,15 +40,18 @@ pub enum Tightness {
 impl Tightness {
     pub fn of(operation: &str) -> Tightness {
         match operation {
-            "acos" | "asin" | "atan" | "atan2" | "cos" | "exp" | "log" | "pow" | "pown" | "powRev1" | "powRev2"
-            | "pownRev" | "pownRevBin" | "sin" | "tan" => Tightness::OneUnit,
-            "cosRev" | "cosRevBin" | "sinRev" | "sinRevBin" | "tanRev" | "tanRevBin" => Tightness::NearOneUnit,
+            "acos" | "asin" | "atan" | "atan2" | "cos" | "exp" | "log" | "pow" | "pown" | "powRev1"
+            | "powRev2" | "pownRev" | "pownRevBin" | "sin" | "tan" => Tightness::OneUnit,
+            "cosRev" | "cosRevBin" | "sinRev" | "sinRevBin" | "tanRev" | "tanRevBin" => {
+                Tightness::NearOneUnit
+            }
             _ => Tightness::Exact,
         }
     }
 
     pub fn accepts(self, result: &[Value], expected: &[Value]) -> bool {
-        result.len() == expected.len() && result.iter().zip(expected).all(|(one, other)| self.accepts_one(one, other))
+        result.len() == expected.len()
+            && result.iter().zip(expected).all(|(one, other)| self.accepts_one(one, other))
     }
 
     fn accepts_one(self, result: &Value, expected: &Value) -> bool {
@@ -113,8 +116,11 @@ fn truth(holds: bool) -> Vec<Value> {
 fn made(interval: Option<Interval>) -> Vec<Value> {
     match interval {
         Some(interval) => set(interval),
-        None => [set(Interval::EMPTY), ["signal", "UndefinedOperation"].map(|word| Value::Word(word.to_owned())).into()]
-            .concat(),
+        None => [
+            set(Interval::EMPTY),
+            ["signal", "UndefinedOperation"].map(|word| Value::Word(word.to_owned())).into(),
+        ]
+        .concat(),
     }
 }
 
