@@ -7,7 +7,7 @@ impl Interval {
     /// The numbers `y` of `x` for which some `b` in `self` gives `atan2(y, b)` in `c`, in radians, as a hull: the first argument
     /// of `atan2`, the coordinate across the direction zero.
     ///
-    /// Every bound is at most three units in the last place from the tightest.
+    /// Every bound is at most four units in the last place from the tightest.
     ///
     /// ```
     /// use shoal_interval::Interval;
