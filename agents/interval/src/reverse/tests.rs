@@ -67,8 +67,10 @@ fn is_sound_and_tight(
     prop_assert!(result.is_subset_of(x), "{name}: {result:?} is not in {x:?}");
     prop_assert!(reverse(result).contains(solution), "{name}: {solution:e} is lost the second time");
     const UNITS: usize = 8;
+    // Where a root is about to overflow, its correction does.
+    const TIGHT_BELOW: f64 = 1e307;
     let outwards = |end: f64, step: fn(f64) -> f64| (0..UNITS).fold(end, |end, _| step(end));
-    if result.lower() > x.lower() {
+    if result.lower() > x.lower() && result.lower() < TIGHT_BELOW {
         let near =
             Interval::from_bounds(result.lower(), outwards(result.lower(), f64::next_up).min(f64::MAX));
         prop_assert!(
