@@ -37,7 +37,7 @@ pub fn contract_distance<const N: usize>(
     for axis in 0..N {
         let others = sum_without(&squares, axis);
         squares[axis] = squares[axis] & (square_of_range - others);
-        difference[axis] = difference[axis].with_square_in(squares[axis]);
+        difference[axis] = squares[axis].sqr_rev(difference[axis]);
         a[axis] = a[axis] & (b[axis] + difference[axis]);
         b[axis] = b[axis] & (a[axis] - difference[axis]);
     }
@@ -86,8 +86,8 @@ pub fn contract_range<const N: usize>(
     let mut range = *sound_speed * delay;
     let contracted = contract_distance(position, emitter, &mut range);
 
-    delay = delay.with_product_in(*sound_speed, range);
-    *sound_speed = sound_speed.with_product_in(delay, range);
+    delay = sound_speed.mul_rev(range, delay);
+    *sound_speed = delay.mul_rev(range, *sound_speed);
     *reception = *reception & (*emission + delay);
     *emission = *emission & (*reception - delay);
 
