@@ -1,6 +1,5 @@
 //! The sector of the points under a measured bearing, and what is not in it.
 
-use super::quadrant::QUARTER_TURN;
 use super::{Contractor, contract_atan2};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
@@ -36,7 +35,7 @@ impl Sector {
 
     /// The points that see `landmark` under `bearing`: the sector on the other side of the landmark.
     pub fn of_viewers(landmark: IntervalBox<2>, bearing: Interval) -> Sector {
-        Sector { apex: landmark, bearing: bearing + QUARTER_TURN * 2.0 }
+        Sector { apex: landmark, bearing: bearing + Interval::PI }
     }
 
     /// The contractor for what is not in the sector.
@@ -46,7 +45,7 @@ impl Sector {
         let bearing = if self.bearing.is_empty() {
             Interval::ENTIRE
         } else {
-            let turned = Interval::spanning(self.bearing.lower(), self.bearing.lower()) + QUARTER_TURN * 4.0;
+            let turned = Interval::spanning(self.bearing.lower(), self.bearing.lower()) + Interval::TWO_PI;
             Interval::new(self.bearing.upper(), turned.upper()).unwrap_or(Interval::EMPTY)
         };
         SectorComplement { rest: Sector { apex: self.apex, bearing } }
