@@ -120,7 +120,7 @@ mod tests {
                 (sine * (x - 1.0) - cosine * (y - 1.0)).abs()
             };
             if to_boundary(bearing) > 1e-9 && to_boundary(bearing + width) > 1e-9 {
-                prop_assert!(inside.is_empty() != outside.is_empty() || width > 6.2831);
+                prop_assert!(inside.is_empty() != outside.is_empty() || width > 6.2);
             }
         }
 
