@@ -20,6 +20,7 @@ mod roots_and_order;
 mod scaled;
 mod steps;
 mod trigonometry;
+mod turn_reduction;
 
 #[cfg(test)]
 mod tests;

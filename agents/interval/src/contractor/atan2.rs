@@ -21,7 +21,7 @@ use crate::interval_box::IntervalBox;
 /// let (mut x, mut y) = (Interval::new(1.0, 4.0)?, Interval::new(-9.0, 2.0)?);
 /// let mut angle = Interval::new(6.0, 7.0)?;
 /// contract_atan2(&mut x, &mut y, &mut angle);
-/// assert_eq!(format!("{x:.2} {y:.2} {angle:.2}"), "[1.00, 4.00] [-1.16, 2.00] [6.00, 7.00]");
+/// assert_eq!(format!("{x:.2} {y:.2} {angle:.2}"), "[1.00, 4.00] [-1.17, 2.00] [6.00, 7.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -68,7 +68,7 @@ impl Atan2Seed {
     /// let atan2 = Atan2Seed.spread();
     /// let domain = [Interval::new(-4.0, -1.0)?, Interval::new(1.0, 9.0)?, Interval::new(2.0, 2.5)?];
     /// let contracted = atan2.contract(IntervalBox::from(domain));
-    /// assert_eq!(format!("{contracted:.2}"), "[-4.00, -1.00] x [1.00, 8.74] x [2.00, 2.50]");
+    /// assert_eq!(format!("{contracted:.2}"), "[-4.00, -1.00] x [1.00, 8.75] x [2.00, 2.50]");
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
     ///

@@ -35,7 +35,7 @@ use crate::set::{larger, smaller};
 /// let mut range = Interval::new(0.0, 5.0)?;
 /// let mut bearing = Interval::new(0.5, 3.0)?;
 /// assert_eq!(contract_polar(&mut x, &mut y, &mut range, &mut bearing), Contracted::Narrowed);
-/// assert_eq!(format!("{x:.2} {y:.2}"), "[3.00, 4.39] [1.64, 4.00]");
+/// assert_eq!(format!("{x:.2} {y:.2}"), "[3.00, 4.39] [1.63, 4.00]");
 /// assert_eq!(format!("{range:.2} {bearing:.3}"), "[3.42, 5.00] [0.500, 0.927]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```

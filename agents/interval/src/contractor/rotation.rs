@@ -109,7 +109,7 @@ fn congruent(angle: Interval, other: Interval) -> Interval {
 /// let mut angles = [Interval::new(0.0, 0.1)?, Interval::new(0.0, 0.2)?, Interval::ENTIRE];
 /// let mut world = IntervalBox::ENTIRE;
 /// contract_euler_rotation(&mut body, &mut angles, &mut world);
-/// assert_eq!(format!("{world:.2}"), "[0.98, 1.00] x [0.00, 0.10] x [-0.20, 0.00]");
+/// assert_eq!(format!("{world:.2}"), "[0.97, 1.00] x [0.00, 0.10] x [-0.20, 0.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

@@ -16,7 +16,7 @@ use crate::interval_box::IntervalBox;
 /// let lighthouse = IntervalBox::from([Interval::ZERO, Interval::ZERO]);
 /// let sector = Sector::new(lighthouse, Interval::new(0.2, 0.3)?);
 /// let sea = IntervalBox::from([Interval::new(1.0, 10.0)?, Interval::new(-10.0, 10.0)?]);
-/// assert_eq!(format!("{:.3}", sector.contract(sea)), "[1.000, 10.000] x [0.203, 3.093]");
+/// assert_eq!(format!("{:.3}", sector.contract(sea)), "[1.000, 10.000] x [0.202, 3.094]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -75,7 +75,7 @@ impl Contractor<2> for Sector {
 ///
 /// let ahead = Sector::new(IntervalBox::from([Interval::ZERO; 2]), Interval::new(-1.0, 1.0)?);
 /// let domain = IntervalBox::from([Interval::new(-2.0, 5.0)?, Interval::new(-0.5, 0.5)?]);
-/// assert_eq!(format!("{:.2}", ahead.complement().contract(domain)), "[-2.00, 0.32] x [-0.50, 0.50]");
+/// assert_eq!(format!("{:.2}", ahead.complement().contract(domain)), "[-2.00, 0.33] x [-0.50, 0.50]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,8 @@
 //! Angles modulo a full turn.
 
 use super::quarter_turns::QuarterTurns;
+use super::turn_reduction::wrapped;
 use crate::interval::Interval;
-use crate::set::{larger, smaller};
-use pxfm::{f_atan2, f_sincos};
 use std::f64::consts;
 
 impl Interval {
@@ -26,13 +25,14 @@ impl Interval {
     /// The angles in the set, in radians, moved by whole turns into `[-pi, pi]`, as a hull.
     ///
     /// Angles on both sides of the cut, an odd multiple of pi, give the whole of `[-pi, pi]`: see
-    /// [`Interval::wrap_angle_to_pair`] for the two pieces. Angles that are between -pi and pi are not changed.
+    /// [`Interval::wrap_angle_to_pair`] for the two pieces. Angles that are between -pi and pi are not changed; the bounds
+    /// of others are at most one unit in the last place from the tightest, however large the angles.
     ///
     /// ```
     /// use shoal_interval::Interval;
     ///
     /// let heading_rad = Interval::new(6.0, 7.0)?.wrap_angle();
-    /// assert_eq!(format!("{heading_rad:.3}"), "[-0.283, 0.717]");
+    /// assert_eq!(format!("{heading_rad:.3}"), "[-0.284, 0.717]");
     /// let across = Interval::new(3.0, 3.5)?.wrap_angle();
     /// assert_eq!(across, Interval::new(-Interval::PI.upper(), Interval::PI.upper())?);
     /// # Ok::<(), shoal_interval::IntervalError>(())
@@ -62,10 +62,10 @@ impl Interval {
             return [Interval::HALF_TURNS, Interval::EMPTY];
         }
         let turns = QuarterTurns::through(self);
-        let (first, last) = (wrapped(self.lower()), wrapped(self.upper()));
         if turns.pass_more_than_a_turn() {
             return [Interval::HALF_TURNS, Interval::EMPTY];
         }
+        let (first, last) = (wrapped(self.lower()), wrapped(self.upper()));
         if !turns.pass(2) {
             return [first.hull(last), Interval::EMPTY];
         }
@@ -78,20 +78,10 @@ impl Interval {
     }
 }
 
-/// A finite angle moved by whole turns into `[-pi, pi]`.
-fn wrapped(angle: f64) -> Interval {
-    if angle.abs() <= consts::PI {
-        return Interval::from_bounds(angle, angle);
-    }
-    let (sine, cosine) = f_sincos(angle);
-    let nearest = f_atan2(sine, cosine);
-    // Half a unit in sine and cosine is up to two in the angle.
-    let lower = nearest.next_down().next_down().next_down();
-    let upper = nearest.next_up().next_up().next_up();
-    Interval::from_bounds(larger(lower, -Interval::PI.upper()), smaller(upper, Interval::PI.upper()))
-}
-
 /// What `f64` gives for pi and its halves is below the exact number.
 const fn from_below(nearest: f64) -> Interval {
     Interval::from_bounds(nearest, nearest.next_up())
 }
+
+#[cfg(test)]
+mod tests;

@@ -50,3 +50,6 @@ fn is_wider(term: Interval, sum: Interval) -> bool {
     // Rounding keeps the order, so the errors matter only when the rounded differences agree.
     at_lower.0 > at_upper.0 || at_lower.0 == at_upper.0 && at_lower.1 > at_upper.1
 }
+
+#[cfg(test)]
+mod tests;

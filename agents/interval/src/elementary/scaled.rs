@@ -27,7 +27,7 @@ impl Scaled {
         Scaled { high, low: 0.0, exponent: (bits >> 52) as i64 - 1023 - shift, tolerance: 0.0 }
     }
 
-    /// A number that `(high + low) * 2^exponent` is the nearest to of this form, for `high` in `[1, 2)`: within the error of a step.
+    /// A number that is known to within [`Scaled::STEP`] as `(high + low) * 2^exponent`, for `high` in `[1, 2]`.
     pub(super) const fn near(high: f64, low: f64, exponent: i64) -> Scaled {
         Scaled { high, low, exponent, tolerance: Scaled::STEP }
     }
