@@ -20,8 +20,8 @@ use crate::interval_box::IntervalBox;
 /// let mut reception = Interval::new(10.0, 10.2)?;
 /// let mut emission = Interval::point(9.9)?;
 /// assert!(contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission));
-/// assert_eq!(format!("{:.3}", position[0]), "[150.000, 200.000]");
-/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.033]");
+/// assert_eq!(format!("{:.3}", position[0]), "[149.999, 200.000]");
+/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.034]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

@@ -115,8 +115,8 @@ impl Wall {
         from(start, [sine, -cosine], Interval::NON_NEGATIVE, position);
         from(end, [-sine, cosine], Interval::NON_NEGATIVE, position);
         let facing = (cosine * along[1] - sine * along[0]) & Interval::NON_NEGATIVE;
-        let height =
-            from(start, [along[1], -along[0]], *distance * facing & Interval::NON_NEGATIVE, position);
+        let in_front = (*distance * facing) & Interval::NON_NEGATIVE;
+        let height = from(start, [along[1], -along[0]], in_front, position);
         *distance = distance.with_product_in(facing, height);
         !(position.is_empty() || bearing.is_empty() || distance.is_empty())
     }
