@@ -30,6 +30,7 @@ mod comparison;
 pub mod contractor;
 mod elementary;
 mod error;
+pub mod expression;
 mod interval;
 mod interval_box;
 mod interval_matrix;
