@@ -25,9 +25,9 @@
 //! | form | costs | best when |
 //! |---|---|---|
 //! | [`natural`](Expression::natural) | one evaluation | each variable occurs once (then it is minimal), or the box is wide |
-//! | [`centred`](Expression::centred) | three, and a gradient for each output | the box is narrow: the excess shrinks with the square of its width |
-//! | [`monotone`](Expression::monotone) | a gradient and two evaluations for each output | the function rises or falls in its variables all over the box |
-//! | [`affine`](Expression::affine) | about `3 (N + 1)` | variables occur often and cancel, on boxes of any size |
+//! | [`centred`](Expression::centred) | two evaluations, and a gradient for each output | the box is narrow: the excess shrinks with the square of its width |
+//! | [`monotone`](Expression::monotone) | one evaluation, and a gradient and two more for each output | the function rises or falls in its variables all over the box |
+//! | [`affine`](Expression::affine) | about ten evaluations in two dimensions, more in more | variables occur often and cancel, on boxes of any size |
 //!
 //! All forms hold every value; each is inside the natural one. A function that is undefined somewhere, such as a root or a
 //! quotient, is enclosed where it is defined; [`evaluate`](Expression::evaluate) tells whether it is so everywhere.
@@ -74,7 +74,7 @@ pub struct Evaluation<const M: usize> {
     pub range: IntervalBox<M>,
     /// Whether it is proved that there is a value at every vector of the box.
     pub defined: bool,
-    /// Whether it is proved that the expression is also continuous on the box.
+    /// Whether it is proved that the expression, restricted to the box, is also continuous.
     pub continuous: bool,
 }
 

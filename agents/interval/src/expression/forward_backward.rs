@@ -12,7 +12,7 @@ impl<const N: usize, const M: usize> Expression<N, M> {
     /// Contracts the two boxes linked by `image = f(domain)`, in one forward and one backward sweep (HC4-Revise).
     ///
     /// No pair of a vector and its value is ever lost. Minimal but for rounding when there is one output, each variable
-    /// occurs once and all operations are continuous.
+    /// occurs once and all operations are continuous and monotone over the box.
     ///
     /// ```
     /// use shoal_interval::contractor::Contracted;
@@ -85,6 +85,8 @@ impl<const N: usize, const M: usize> Expression<N, M> {
 
     /// A separator for the set `{x : f(x) is defined and in target}`: its [`contractor`](Expression::contractor) and its
     /// [`inner_contractor`](Expression::inner_contractor), which share one forward sweep.
+    ///
+    /// Where the expression has intervals as parameters, what is proved is proved for each of their values.
     ///
     /// ```
     /// use shoal_interval::expression::Expression;

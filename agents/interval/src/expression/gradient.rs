@@ -117,10 +117,9 @@ impl<const N: usize, const M: usize> Expression<N, M> {
     fn jacobian_of(&self, values: &[Interval], adjoints: &mut [Interval]) -> IntervalMatrix<M, N> {
         let rows: [[Interval; N]; M] = std::array::from_fn(|output| {
             self.tape.differentiate(self.tape.outputs[output], values, adjoints);
-            std::array::from_fn(|axis| match adjoints[axis] {
-                Interval::EMPTY => Interval::ZERO,
-                slope => slope,
-            })
+            std::array::from_fn(
+                |axis| if adjoints[axis].is_empty() { Interval::ZERO } else { adjoints[axis] },
+            )
         });
         rows.into()
     }
