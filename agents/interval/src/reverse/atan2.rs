@@ -7,7 +7,7 @@ impl Interval {
     /// The numbers `y` of `x` for which some `b` in `self` gives `atan2(y, b)` in `c`, in radians, as a hull: the first argument
     /// of `atan2`, the coordinate across the direction zero.
     ///
-    /// Every bound is at most three units in the last place from the tightest.
+    /// Every bound is at most four units in the last place from the tightest.
     ///
     /// ```
     /// use shoal_interval::Interval;
@@ -89,24 +89,21 @@ fn along(across: Interval, angles: Interval, x: Interval) -> Interval {
     if angles.is_empty() || across.is_empty() {
         return Interval::EMPTY;
     }
-    let lower = if angles.upper() > PI { f64::NEG_INFINITY } else { cotangent(angles.upper()).lower() };
-    let upper = if angles.lower() <= 0.0 { f64::INFINITY } else { cotangent(angles.lower()).upper() };
-    let cotangents = Interval::from_bounds(lower, upper);
-    let x = if lower > 0.0 {
+    // The quotient shrinks as the angle grows.
+    let quotients = |angle| across / Interval::from_bounds(angle, angle).tan();
+    let lower = if angles.upper() > PI { f64::NEG_INFINITY } else { quotients(angles.upper()).lower() };
+    let upper = if angles.lower() <= 0.0 { f64::INFINITY } else { quotients(angles.lower()).upper() };
+    let side = if angles.upper() <= FRAC_PI_2 {
         x.above(0.0)
-    } else if upper < 0.0 {
+    } else if angles.lower() > FRAC_PI_2 {
         x.below(0.0)
     } else {
         x
     };
-    x.intersection(across * cotangents)
+    side.intersection(Interval::from_bounds(lower, upper))
 }
 
 /// The size of the tangent of one angle between zero and pi.
 fn slope(angle: f64) -> Interval {
     Interval::from_bounds(angle, angle).tan().abs()
-}
-
-fn cotangent(angle: f64) -> Interval {
-    Interval::from_bounds(angle, angle).tan().recip()
 }

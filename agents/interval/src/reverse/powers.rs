@@ -44,8 +44,8 @@ impl Interval {
     /// The numbers of `x` for which some `b` in `self` gives `x^b` in `c`, as a hull. This reverses [`Interval::powf`] for
     /// its base, which is never negative.
     ///
-    /// Every bound is at most five units in the last place from the tightest, and one where the reciprocals of the bounds of
-    /// `self` are exact.
+    /// Every bound below 1e307 is at most eight units in the last place from the tightest, and every bound is at most one unit
+    /// from it where the reciprocals of the bounds of `self` are exact.
     ///
     /// ```
     /// use shoal_interval::Interval;
@@ -79,7 +79,7 @@ impl Interval {
     /// The numbers of `x` for which some `a` in `self` gives `a^x` in `c`, as a hull. This reverses [`Interval::powf`] for
     /// its exponent.
     ///
-    /// Every bound is at most five units in the last place from the tightest, and exact where a power of two and its exponent
+    /// Every bound is at most eight units in the last place from the tightest, and exact where a power of two and its exponent
     /// decide it.
     ///
     /// ```

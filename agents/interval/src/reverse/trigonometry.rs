@@ -22,7 +22,7 @@ const SINES: Interval = Interval::from_bounds(-1.0, 1.0);
 impl Interval {
     /// The angles of `x`, in radians, whose sine is in `self`, as a hull.
     ///
-    /// The bounds are the lowest and the highest solution in `x`, two units in the last place from the tightest at most;
+    /// The bounds are the lowest and the highest solution in `x`, four units in the last place from the tightest at most;
     /// an end of `x` that is beyond 2^50 stays as it is.
     ///
     /// ```
