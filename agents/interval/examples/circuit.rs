@@ -21,7 +21,7 @@ fn main() -> Result<(), IntervalError> {
         ]
     });
     let names = ["R1 (ohm)", "R2 (ohm)", "E (V)", "I (A)", "U1 (V)", "U2 (V)", "P (W)"];
-    let mut circuit = IntervalBox::from([
+    let measured = IntervalBox::from([
         Interval::NON_NEGATIVE,
         Interval::NON_NEGATIVE,
         Interval::new(23.0, 26.0)?,
@@ -31,15 +31,7 @@ fn main() -> Result<(), IntervalError> {
         Interval::new(124.0, 130.0)?,
     ]);
 
-    let obey_laws = laws.contractor([Interval::ZERO; 5]);
-    loop {
-        let contracted = obey_laws.contract(circuit);
-        if contracted == circuit {
-            break;
-        }
-        circuit = contracted;
-    }
-
+    let circuit = laws.contractor([Interval::ZERO; 5]).fixpoint(0.0).contract(measured);
     for (name, value) in names.iter().zip(&circuit) {
         println!("{name:9} {value:.3}");
     }

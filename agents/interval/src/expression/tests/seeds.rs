@@ -3,21 +3,6 @@
 use super::*;
 use crate::contractor::Contracted;
 
-fn to_fixpoint<const N: usize>(
-    contractors: &[&dyn Contractor<N>],
-    mut domain: IntervalBox<N>,
-) -> IntervalBox<N> {
-    loop {
-        let before = domain;
-        for contractor in contractors {
-            domain = contractor.contract(domain);
-        }
-        if domain == before {
-            return domain;
-        }
-    }
-}
-
 fn at_most(bound: f64) -> Interval {
     over(f64::NEG_INFINITY, bound)
 }
@@ -53,10 +38,11 @@ fn three_constraints_that_contradict_each_other_leave_nothing() {
 
         let first = straight.contract(hyperbola.contract(parabola.contract(IntervalBox::ENTIRE)));
         assert!(first.is_subset_of(&[over(0.0, (-1.0 / slope).next_up()), over(0.0, 1.0)].into()));
-        assert!(to_fixpoint(&[&parabola, &hyperbola, &straight], IntervalBox::ENTIRE).is_empty());
+        let one_by_one = parabola.then(hyperbola).then(straight).fixpoint(0.0);
+        assert!(one_by_one.contract(IntervalBox::ENTIRE).is_empty());
 
         let all = Expression::system(|[x, y]| [y - x.sqr(), x * y - product, y - (slope * x + 1.0)]);
-        assert!(to_fixpoint(&[&all.contractor([Interval::ZERO; 3])], IntervalBox::ENTIRE).is_empty());
+        assert!(all.contractor([Interval::ZERO; 3]).fixpoint(0.0).contract(IntervalBox::ENTIRE).is_empty());
     }
 }
 
@@ -75,18 +61,16 @@ fn the_circuit() {
     let laws = Expression::system(|[r1, r2, e, i, u1, u2, p]| {
         [e * i - p, (r1 + r2) * i - e, r1 * i - u1, r2 * i - u2, u1 + u2 - e]
     });
-    let circuit = to_fixpoint(
-        &[&laws.contractor([Interval::ZERO; 5])],
-        IntervalBox::from([
-            Interval::NON_NEGATIVE,
-            Interval::NON_NEGATIVE,
-            over(23.0, 26.0),
-            over(4.0, 8.0),
-            over(10.0, 11.0),
-            over(14.0, 17.0),
-            over(124.0, 130.0),
-        ]),
-    );
+    let measured = IntervalBox::from([
+        Interval::NON_NEGATIVE,
+        Interval::NON_NEGATIVE,
+        over(23.0, 26.0),
+        over(4.0, 8.0),
+        over(10.0, 11.0),
+        over(14.0, 17.0),
+        over(124.0, 130.0),
+    ]);
+    let circuit = laws.contractor([Interval::ZERO; 5]).fixpoint(0.0).contract(measured);
     let digits = |side: Interval, decimals: i32| {
         let scale = [1.0, 10.0, 100.0, 1000.0][decimals as usize];
         ((side.lower() * scale).floor() / scale, (side.upper() * scale).floor() / scale)
