@@ -94,5 +94,5 @@ fn subnormal_exponential(x: f64) -> Option<Scaled> {
     // The sum is exact: it has the last bit of `x` and fewer leading ones.
     let normal = Scaled::exact(f_exp(x + 64.0));
     // Half a unit in the last place of `f_exp`, with some reserve.
-    Some(normal.times(&FACTOR).with_tolerance(2.1 / (1_u64 << 53) as f64))
+    Some(normal.times(FACTOR).with_tolerance(2.1 / (1_u64 << 53) as f64))
 }

@@ -64,7 +64,7 @@ fn mul_add_up(a: f64, b: f64, c: f64) -> f64 {
 #[inline]
 fn excess(a: f64, b: f64, c: f64, nearest: f64) -> f64 {
     let (product_size, addend_size) = ((a * b).abs(), c.abs());
-    if product_size >= POWER_OF_MINUS_900 && product_size <= POWER_OF_1000 && addend_size <= POWER_OF_1000 {
+    if (POWER_OF_MINUS_900..=POWER_OF_1000).contains(&product_size) && addend_size <= POWER_OF_1000 {
         return sign_of_product_and_sum(a, b, c, -nearest);
     }
     excess_at_the_ends(a, b, c, nearest)

@@ -85,6 +85,7 @@ fn odd_power_down(x: f64, exponent: i32) -> f64 {
 }
 
 /// `x^exponent` rounded down, for `x` that is not negative and a positive exponent, or the limit at zero and infinity.
+#[inline]
 pub(super) fn power_down(x: f64, exponent: i32) -> f64 {
     match limit(x, exponent) {
         Some(limit) => limit,
@@ -93,6 +94,7 @@ pub(super) fn power_down(x: f64, exponent: i32) -> f64 {
 }
 
 /// `x^exponent` rounded up; as [`power_down`].
+#[inline]
 pub(super) fn power_up(x: f64, exponent: i32) -> f64 {
     match limit(x, exponent) {
         Some(limit) => limit,
@@ -100,6 +102,7 @@ pub(super) fn power_up(x: f64, exponent: i32) -> f64 {
     }
 }
 
+#[inline]
 fn limit(x: f64, exponent: i32) -> Option<f64> {
     if x == 0.0 {
         Some(if exponent > 0 { 0.0 } else { f64::INFINITY })
@@ -114,14 +117,15 @@ fn limit(x: f64, exponent: i32) -> Option<f64> {
 /// result comes from exact steps.
 ///
 /// A step has a relative error below 2^-103, and squaring doubles the one so far: x^n has less than n times that.
+#[inline]
 fn power(x: f64, exponent: i32) -> Scaled {
     let x = Scaled::exact(x);
     let mut power = x;
     let count = exponent.unsigned_abs();
     for bit in (0..count.ilog2()).rev() {
-        power = power.times(&power);
+        power = power.times(power);
         if count >> bit & 1 == 1 {
-            power = power.times(&x);
+            power = power.times(x);
         }
     }
     if !power.is_exact() {

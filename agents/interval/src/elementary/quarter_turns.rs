@@ -27,27 +27,35 @@ pub(super) struct QuarterTurns {
 }
 
 impl QuarterTurns {
-    /// The walk through a set of angles in radians that is not empty.
+    /// The walk through a bounded set of angles in radians, by a division; nothing when that leaves a doubt.
     #[inline]
-    pub(super) fn through(angles: Interval) -> QuarterTurns {
-        match (counted(angles.lower()), counted(angles.upper())) {
-            (Some(start), Some(end)) => QuarterTurns { start, passed: (end - start).min(EVERY) },
-            _ => QuarterTurns::from_signs(angles),
-        }
+    pub(super) fn counted(angles: Interval) -> Option<QuarterTurns> {
+        let (start, end) = (counted(angles.lower())?, counted(angles.upper())?);
+        Some(QuarterTurns { start, passed: (end - start).min(EVERY) })
     }
 
+    /// The walk through a bounded set of angles in radians, whose sines and cosines at both ends are given.
+    ///
     /// The ends tell how many multiples are passed up to full turns, and the width, which differs by less than one quarter
     /// turn from that many, how many full turns.
-    #[cold]
-    fn from_signs(angles: Interval) -> QuarterTurns {
+    pub(super) fn from_signs(angles: Interval, at_lower: (f64, f64), at_upper: (f64, f64)) -> QuarterTurns {
         let width = (angles.upper() - angles.lower()) * FRAC_2_PI;
         if width > (EVERY + 1) as f64 {
             return QuarterTurns { start: 0, passed: EVERY };
         }
-        let (start, end) = (quarter(angles.lower()), quarter(angles.upper()));
+        let (start, end) = (quarter(at_lower), quarter(at_upper));
         let beyond_full_turns = (end - start) & 3;
         let full_turns = ((width - beyond_full_turns as f64) / 4.0).round_ties_even() as i64;
         QuarterTurns { start, passed: (beyond_full_turns + 4 * full_turns).min(EVERY) }
+    }
+
+    /// The walk through a bounded set of angles in radians.
+    #[inline]
+    pub(super) fn through(angles: Interval) -> QuarterTurns {
+        match QuarterTurns::counted(angles) {
+            Some(turns) => turns,
+            None => QuarterTurns::from_signs(angles, f_sincos(angles.lower()), f_sincos(angles.upper())),
+        }
     }
 
     /// Whether a multiple `4 n + remainder` of pi/2 is passed, for any `n`.
@@ -89,13 +97,16 @@ fn counted(angle: f64) -> Option<i64> {
     }
 }
 
-/// The quarter turn of a finite angle, modulo four. Sine and cosine are never rounded past zero.
-fn quarter(angle: f64) -> i64 {
-    match f_sincos(angle) {
-        (sine, cosine) if sine >= 0.0 && cosine > 0.0 => 0,
-        (sine, _) if sine > 0.0 => 1,
-        (_, cosine) if cosine < 0.0 => 2,
-        _ => 3,
+/// The quarter turn of an angle, modulo four, from its sine and cosine, which are never rounded past zero.
+fn quarter((sine, cosine): (f64, f64)) -> i64 {
+    if sine >= 0.0 && cosine > 0.0 {
+        0
+    } else if sine > 0.0 {
+        1
+    } else if cosine < 0.0 {
+        2
+    } else {
+        3
     }
 }
 

@@ -34,7 +34,7 @@ impl Scaled {
 
     /// Whether nothing was lost so far.
     #[inline]
-    pub(super) fn is_exact(&self) -> bool {
+    pub(super) fn is_exact(self) -> bool {
         self.tolerance == 0.0
     }
 
@@ -46,8 +46,8 @@ impl Scaled {
     /// The product, with a relative error below 2^-103 of its own. The tolerance of the product is at least that of
     /// its factors, but not their sum: who multiplies knows how the errors grow, and says so.
     #[inline]
-    pub(super) fn times(&self, other: &Scaled) -> Scaled {
-        let &Scaled { high, low, exponent, .. } = other;
+    pub(super) fn times(self, other: Scaled) -> Scaled {
+        let Scaled { high, low, exponent, .. } = other;
         let (product, error) = two_product(self.high, high);
         let own = if self.low == 0.0 && low == 0.0 { 0.0 } else { Scaled::STEP };
         let tolerance = larger(own, larger(self.tolerance, other.tolerance));
@@ -63,7 +63,7 @@ impl Scaled {
     }
 
     /// The square root of a number that [`Scaled::exact`] made.
-    pub(super) fn sqrt(&self) -> Scaled {
+    pub(super) fn sqrt(self) -> Scaled {
         let odd = self.exponent & 1;
         let square = if odd == 1 { 2.0 * self.high } else { self.high };
         let root = square.sqrt();
@@ -72,7 +72,7 @@ impl Scaled {
         Scaled { high: root, low: rest / (2.0 * root), exponent: (self.exponent - odd) / 2, tolerance }
     }
 
-    pub(super) fn reciprocal(&self) -> Scaled {
+    pub(super) fn reciprocal(self) -> Scaled {
         let nearest = 1.0 / self.high;
         let remainder = (-nearest).mul_add(self.high, 1.0) - nearest * self.low;
         let exact = self.tolerance == 0.0 && self.low == 0.0 && remainder == 0.0;
@@ -86,33 +86,44 @@ impl Scaled {
         }
     }
 
-    pub(super) fn rounded_down(&self) -> f64 {
+    #[inline]
+    pub(super) fn rounded_down(self) -> f64 {
         if self.exponent > 1025 {
             return f64::MAX;
         }
         if self.exponent < -1080 {
             return 0.0;
         }
-        let (nearest, excess) = self.to_nearest();
+        let (nearest, excess) = self.nearest_and_excess();
         if nearest.is_infinite() || excess - self.tolerance < 0.0 { nearest.next_down() } else { nearest }
     }
 
-    pub(super) fn rounded_up(&self) -> f64 {
+    #[inline]
+    pub(super) fn rounded_up(self) -> f64 {
         if self.exponent > 1025 {
             return f64::INFINITY;
         }
         if self.exponent < -1080 {
             return f64::from_bits(1);
         }
-        let (nearest, excess) = self.to_nearest();
+        let (nearest, excess) = self.nearest_and_excess();
         if excess + self.tolerance > 0.0 { nearest.next_up() } else { nearest }
     }
 
     /// The nearest number, or infinity, to `high` alone, and by how much `high + low` is above it in units of
     /// 2^exponent.
-    fn to_nearest(&self) -> (f64, f64) {
-        // Two factors, as one alone may be subnormal or infinite; only the second product is rounded.
+    #[inline]
+    fn nearest_and_excess(self) -> (f64, f64) {
         let exponent = self.exponent as i32;
+        if (-1000..1000).contains(&exponent) {
+            return (self.high * power_of_two(exponent), self.low);
+        }
+        self.nearest_and_excess_at_the_ends(exponent)
+    }
+
+    #[cold]
+    fn nearest_and_excess_at_the_ends(self, exponent: i32) -> (f64, f64) {
+        // Two factors, as one alone may be subnormal or infinite; only the second product is rounded.
         let first = exponent / 2;
         let (one, other) = (power_of_two(first), power_of_two(exponent - first));
         let nearest = self.high * one * other;
@@ -122,6 +133,7 @@ impl Scaled {
     }
 }
 
+#[inline]
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }

@@ -34,13 +34,16 @@ impl Interval {
         if !self.is_bounded() {
             return ALL_VALUES;
         }
-        let turns = QuarterTurns::through(self);
+        let Some(turns) = QuarterTurns::counted(self) else {
+            return sines_and_cosines_by_signs(self).0;
+        };
         let (up, down) = (turns.pass(1), turns.pass(3));
         if up && down {
             return ALL_VALUES;
         }
-        let ends = (f_sin(self.lower()), f_sin(self.upper()));
-        between(sine_of_end(ends.0), sine_of_end(ends.1), up, down)
+        let at_lower = sine_of_end(f_sin(self.lower()));
+        let at_upper = if self.is_point() { at_lower } else { sine_of_end(f_sin(self.upper())) };
+        between(at_lower, at_upper, up, down)
     }
 
     /// The cosines of the angles in the set, in radians. Guarantees as for [`Interval::sin`]; `cos 0 = 1` is exact.
@@ -62,13 +65,17 @@ impl Interval {
         if !self.is_bounded() {
             return ALL_VALUES;
         }
-        let turns = QuarterTurns::through(self);
+        let Some(turns) = QuarterTurns::counted(self) else {
+            return sines_and_cosines_by_signs(self).1;
+        };
         let (up, down) = (turns.pass(0), turns.pass(2));
         if up && down {
             return ALL_VALUES;
         }
         let (from, to) = (self.lower(), self.upper());
-        between(cosine_of_end(from, f_cos(from)), cosine_of_end(to, f_cos(to)), up, down)
+        let at_lower = cosine_of_end(from, f_cos(from));
+        let at_upper = if self.is_point() { at_lower } else { cosine_of_end(to, f_cos(to)) };
+        between(at_lower, at_upper, up, down)
     }
 
     /// The sines and the cosines, in this order: the same as [`Interval::sin`] and [`Interval::cos`], in less time.
@@ -80,16 +87,15 @@ impl Interval {
         if !self.is_bounded() {
             return (ALL_VALUES, ALL_VALUES);
         }
-        let turns = QuarterTurns::through(self);
+        let Some(turns) = QuarterTurns::counted(self) else {
+            return sines_and_cosines_by_signs(self);
+        };
         if turns.pass_more_than_a_turn() {
             return (ALL_VALUES, ALL_VALUES);
         }
-        let (from, to) = (self.lower(), self.upper());
-        let (at_from, at_to) = (f_sincos(from), f_sincos(to));
-        let sine = between(sine_of_end(at_from.0), sine_of_end(at_to.0), turns.pass(1), turns.pass(3));
-        let cosine =
-            between(cosine_of_end(from, at_from.1), cosine_of_end(to, at_to.1), turns.pass(0), turns.pass(2));
-        (sine, cosine)
+        let at_lower = f_sincos(self.lower());
+        let at_upper = if self.is_point() { at_lower } else { f_sincos(self.upper()) };
+        sines_and_cosines(self, turns, at_lower, at_upper)
     }
 
     /// The tangents of the angles in the set, in radians; [`Interval::ENTIRE`] when a pole, an odd multiple of pi/2, is
@@ -121,6 +127,27 @@ impl Interval {
         let upper = if to == 0.0 { 0.0 } else { f_tan(to).next_up() };
         Interval::from_bounds(lower, upper)
     }
+}
+
+/// The sines and the cosines of a bounded set of angles that are large, or close to a multiple of pi/2.
+#[cold]
+fn sines_and_cosines_by_signs(angles: Interval) -> (Interval, Interval) {
+    let (at_lower, at_upper) = (f_sincos(angles.lower()), f_sincos(angles.upper()));
+    let turns = QuarterTurns::from_signs(angles, at_lower, at_upper);
+    sines_and_cosines(angles, turns, at_lower, at_upper)
+}
+
+#[inline]
+fn sines_and_cosines(
+    angles: Interval,
+    turns: QuarterTurns,
+    at_lower: (f64, f64),
+    at_upper: (f64, f64),
+) -> (Interval, Interval) {
+    let at_ends = (sine_of_end(at_lower.0), sine_of_end(at_upper.0));
+    let sines = between(at_ends.0, at_ends.1, turns.pass(1), turns.pass(3));
+    let at_ends = (cosine_of_end(angles.lower(), at_lower.1), cosine_of_end(angles.upper(), at_upper.1));
+    (sines, between(at_ends.0, at_ends.1, turns.pass(0), turns.pass(2)))
 }
 
 /// The values between two ends, and the peaks that are passed from one to the other.

@@ -51,7 +51,7 @@ fn rest_of_turn(angle_rad: f64) -> (Scaled, bool) {
     let low = (fraction >> 22 & ((1 << 53) - 1)) as f64 / (1_u128 << 105) as f64;
     let nearest = high + low;
     let turns = Scaled::near(nearest, low - (nearest - high), -1 - i64::from(zeros));
-    (turns.times(&FULL_TURN).with_tolerance(TOLERANCE), is_negative)
+    (turns.times(FULL_TURN).with_tolerance(TOLERANCE), is_negative)
 }
 
 /// Twice pi.

@@ -50,6 +50,20 @@ fn powers_are_enclosed_to_the_last_bit() {
     assert!(loose <= 1, "no closer to a number than the tolerance, but by accident");
 }
 
+/// Powers of numbers next to 1 are closer to an `f64` than their digits can tell.
+#[test]
+fn powers_that_are_nearly_exact() {
+    for steps in 1..40_u64 {
+        for exponent in (-30..=30).filter(|&n| n != 0) {
+            for x in [f64::from_bits(1.0_f64.to_bits() + steps), f64::from_bits(1.0_f64.to_bits() - steps)] {
+                let (down, up) = (power_down(x, exponent), power_up(x, exponent));
+                assert!(compare(down, x, exponent).is_le() && compare(up, x, exponent).is_ge());
+                assert!(up <= down.next_up().next_up(), "{x}^{exponent}: [{down:e}, {up:e}]");
+            }
+        }
+    }
+}
+
 #[test]
 fn exact_powers_are_points() {
     let over = |lower, upper| Interval::new(lower, upper).unwrap();
