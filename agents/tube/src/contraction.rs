@@ -59,6 +59,7 @@ impl<T: Enclosure> Tube<T> {
         let slice = self.slices[index];
         let of_input = self.narrow_gate(index, slice);
         let of_output = self.narrow_gate(index + 1, slice);
+        debug_assert!(self.gates_are_inside(index));
         together(together(of_slice, of_input), of_output)
     }
 
@@ -66,6 +67,11 @@ impl<T: Enclosure> Tube<T> {
     #[inline]
     pub(crate) fn narrow_slice_alone(&mut self, index: usize, value: T) -> Contracted {
         narrow(&mut self.slices[index], value, &mut self.empty_count)
+    }
+
+    /// What must always be true of a slice.
+    pub(crate) fn gates_are_inside(&self, index: usize) -> bool {
+        self.gates.range(index..index + 2).all(|gate| gate.is_subset_of(&self.slices[index]))
     }
 }
 
