@@ -120,7 +120,9 @@ impl<T: Enclosure> Tube<T> {
         }
         // The input gate is inside the slice still, because no travel is zero.
         let reached = (input_gate + travel.across) & self.slices[index];
-        together(of_slice, self.narrow_gate(index + 1, reached))
+        let of_output = self.narrow_gate(index + 1, reached);
+        debug_assert!(self.gates_are_inside(index));
+        together(of_slice, of_output)
     }
 
     /// [`carry_forward`](Tube::carry_forward), from the output gate to the input gate.
@@ -133,7 +135,9 @@ impl<T: Enclosure> Tube<T> {
             return self.narrow_slice(index, T::EMPTY);
         }
         let left = (output_gate - travel.across) & self.slices[index];
-        together(of_slice, self.narrow_gate(index, left))
+        let of_input = self.narrow_gate(index, left);
+        debug_assert!(self.gates_are_inside(index));
+        together(of_slice, of_input)
     }
 }
 
