@@ -238,3 +238,6 @@ fn hull<T: Enclosure>(passages: &[Passage<T>]) -> (Interval, T) {
 fn since(from_s: Interval, to_s: Interval) -> Interval {
     (to_s - from_s) & Interval::NON_NEGATIVE
 }
+
+#[cfg(test)]
+mod tests;
