@@ -12,7 +12,7 @@ use shoal_tube::contractor::{
     Moving, Ping, contract_chain, contract_composition, contract_delay, contract_equality, contract_inverse,
     contract_order, contract_ping, contract_uncertain_delay, lift,
 };
-use shoal_tube::{Contracted, Direction, Tube};
+use shoal_tube::{Contracted, Direction, Tube, TubeError};
 use truth::{around, domain, holds, is_sound, radii, time_in, trajectory};
 
 /// An inclusion function of a trajectory that is in a tube.
@@ -35,7 +35,17 @@ fn check<const M: usize>(
         }
         prop_assert!(outcome != Contracted::Empty);
         prop_assert_eq!(outcome == Contracted::Unchanged, before == after);
-        Ok(after)
+        let once = after.clone();
+        // On the way to the fixpoint nothing is lost either.
+        for _ in 0..3 {
+            if contract(&mut after) == Contracted::Unchanged {
+                break;
+            }
+        }
+        for index in 0..M {
+            prop_assert!(holds(&after[index], truths[index]), "tube {} lost the truth later", index);
+        }
+        Ok(once)
     };
     let (narrow, wide) = (contracted(1.0)?, contracted(1.7)?);
     for index in 0..M {
@@ -319,4 +329,64 @@ proptest! {
             prop_assert!(holds(&after.component(axis), |time| truth.value(time)));
         }
     }
+
+    /// Empty, unbounded and huge sets, anywhere: no panic, nothing added, empty where one of the sets is.
+    #[test]
+    fn anything_at_all(
+        sets in prop::array::uniform3(prop::collection::vec(any_set(), 1..6)), domains in prop::array::uniform2(domain()),
+        other in any_set(), time in any_set(), number in prop_oneof![any::<f64>(), -3.0..3.0_f64],
+    ) {
+        let [x, y, z] = [0, 1, 2].map(|index| {
+            let mut set = sets[index].iter().cycle();
+            let domain = &domains[index % 2];
+            Tube::from_function(domain.clone(), |_| *set.next().unwrap())
+        });
+        let within = time & x.domain().span();
+        let input = Tube::constant(domains[0].clone(), other);
+        let contractors: [Contract<'_>; 13] = [
+            ("order", &|[x, _, z]| contract_order(x, z)),
+            ("equality", &|[x, _, z]| contract_equality(x, z)),
+            ("delay", &|[x, y, _]| contract_delay(x, y, number)),
+            ("uncertain delay", &|[x, y, _]| Ok(contract_uncertain_delay(x, y, &mut time.clone()))),
+            ("period", &|[x, ..]| x.contract_period(number)),
+            ("axial symmetry", &|[x, ..]| x.contract_axial_symmetry(number)),
+            ("central symmetry", &|[x, ..]| x.contract_central_symmetry(number, other)),
+            ("derivative", &|[x, _, z]| x.contract_derivative_around(z, time)),
+            ("evaluation", &|[x, ..]| x.contract_evaluation(&mut time.clone(), &mut other.clone())),
+            ("evaluation with derivative", &|[x, _, z]| {
+                x.contract_evaluation_with_derivative(z, &mut within.clone(), &mut other.clone())
+            }),
+            ("composition", &|[x, y, z]| contract_composition(y, x, z)),
+            ("inverse", &|[x, y, _]| contract_inverse(x, y)),
+            ("chain", &|[x, _, z]| contract_chain(x, z, &input, 3, |x, u| x * u)),
+        ];
+        let before = [x, y, z];
+        for (name, contract) in contractors {
+            let mut after = before.clone();
+            let outcome = contract(&mut after);
+            for index in 0..3 {
+                prop_assert!(is_sound(&before[index], &after[index]), "{} on tube {}", name, index);
+                prop_assert!(!before[index].is_empty() || after[index].is_empty(), "{} revived a tube", name);
+            }
+            match outcome {
+                Ok(Contracted::Empty) => prop_assert!(after.iter().any(Tube::is_empty), "{} left something", name),
+                Ok(Contracted::Narrowed) => prop_assert!(name.contains("evaluation") || name.contains("delay") || before != after, "{} did nothing", name),
+                Ok(Contracted::Unchanged) | Err(_) => prop_assert_eq!(&before, &after, "{} is silent", name),
+            }
+        }
+    }
+}
+
+/// What contracts some of three tubes, of which the first and the last are cut at the same times.
+type Contract<'a> = (&'a str, &'a dyn Fn(&mut [Tube<Interval>; 3]) -> Result<Contracted, TubeError>);
+
+/// Sets as they are and as nobody wants them.
+fn any_set() -> impl Strategy<Value = Interval> {
+    prop_oneof![
+        8 => (-5.0..5.0_f64, 0.0..5.0_f64).prop_map(|(mid, radius)| Interval::centred(mid, radius)),
+        1 => Just(Interval::EMPTY),
+        2 => Just(Interval::ENTIRE),
+        2 => Just(Interval::NON_NEGATIVE),
+        2 => (any::<f64>(), any::<f64>()).prop_map(|(one, other)| Interval::spanning(one, other)),
+    ]
 }
