@@ -1,11 +1,12 @@
 //! A trajectory and its derivative: contraction both ways in time, and the integral.
 
+use crate::contraction::together;
 use crate::enclosure::Enclosure;
 use crate::error::TubeError;
-use crate::online::{narrow, together};
 use crate::tube::Tube;
 use shoal_interval::Interval;
 use shoal_interval::contractor::Contracted;
+use std::collections::VecDeque;
 
 /// Which way in time a contractor carries what is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,12 +24,17 @@ impl<T: Enclosure> Tube<T> {
     ///
     /// Source: seed 001, equations (4.4) to (4.6).
     pub fn primitive(derivative: &Tube<T>, at_start: T) -> Tube<T> {
-        let mut tube = Tube::constant(derivative.domain().clone(), T::ENTIRE);
-        tube.gates[0] = at_start;
-        for index in 0..tube.slice_count() {
-            tube.contract_forward(index, derivative.slices[index]);
+        let mut gates = VecDeque::with_capacity(derivative.slice_count() + 1);
+        let mut slices = VecDeque::with_capacity(derivative.slice_count());
+        let mut gate = at_start;
+        gates.push_back(gate);
+        for (index, &slope) in derivative.slices.iter().enumerate() {
+            let travel = Travel::new(slope, derivative.domain.duration_at(index));
+            slices.push_back(gate + travel.within);
+            gate = gate + travel.across;
+            gates.push_back(gate);
         }
-        tube
+        Tube::assembled(derivative.domain.clone(), slices, gates)
     }
 
     /// Removes every trajectory whose derivative is not, almost always, in the slices of `derivative`.
@@ -46,19 +52,21 @@ impl<T: Enclosure> Tube<T> {
         derivative: &Tube<T>,
         direction: Direction,
     ) -> Result<Contracted, TubeError> {
-        if self.domain != derivative.domain {
-            return Err(TubeError::DifferentDomains);
-        }
+        self.check_same_domain(derivative)?;
+        let all = 0..self.slice_count();
         let mut contracted = Contracted::Unchanged;
         if direction != Direction::Backward {
-            for index in 0..self.slice_count() {
-                contracted = together(contracted, self.contract_forward(index, derivative.slices[index]));
+            for index in all.clone() {
+                contracted = together(contracted, self.carry_forward(index, derivative.slices[index]));
             }
         }
         if direction != Direction::Forward {
-            for index in (0..self.slice_count()).rev() {
-                contracted = together(contracted, self.contract_backward(index, derivative.slices[index]));
+            for index in all.clone().rev() {
+                contracted = together(contracted, self.carry_backward(index, derivative.slices[index]));
             }
+        }
+        if contracted != Contracted::Unchanged {
+            self.refresh(all);
         }
         Ok(contracted)
     }
@@ -86,48 +94,63 @@ impl<T: Enclosure> Tube<T> {
         derivative: T,
         direction: Direction,
     ) -> Result<Contracted, TubeError> {
-        if index >= self.slice_count() {
-            return Err(TubeError::NoSuchSlice { index, count: self.slice_count() });
-        }
-        Ok(match direction {
-            Direction::Forward => self.contract_forward(index, derivative),
-            Direction::Backward => self.contract_backward(index, derivative),
+        self.check_slice(index)?;
+        let contracted = match direction {
+            Direction::Forward => self.carry_forward(index, derivative),
+            Direction::Backward => self.carry_backward(index, derivative),
             Direction::Both => {
-                together(self.contract_forward(index, derivative), self.contract_backward(index, derivative))
+                together(self.carry_forward(index, derivative), self.carry_backward(index, derivative))
             }
-        })
+        };
+        if contracted != Contracted::Unchanged {
+            self.refresh(index..index + 1);
+        }
+        Ok(contracted)
     }
 
-    fn contract_forward(&mut self, index: usize, derivative: T) -> Contracted {
+    /// Carries the input gate of slice `index`, which the caller knows to exist, through the slice to its output gate. The
+    /// summaries wait for [`refresh`](Tube::refresh).
+    #[inline]
+    pub(crate) fn carry_forward(&mut self, index: usize, derivative: T) -> Contracted {
+        let travel = Travel::new(derivative, self.domain.duration_at(index));
         let input_gate = self.gates[index];
-        let duration_s = self.duration_s(index);
-        let reached = input_gate + derivative * duration_s;
-        let passed = input_gate + derivative * (duration_s | Interval::ZERO);
-        let of_gate = narrow(&mut self.gates[index + 1], reached);
-        together(of_gate, self.narrow_slice(index, passed))
-    }
-
-    fn contract_backward(&mut self, index: usize, derivative: T) -> Contracted {
-        let output_gate = self.gates[index + 1];
-        let duration_s = self.duration_s(index);
-        let left = output_gate - derivative * duration_s;
-        let passed = output_gate - derivative * (duration_s | Interval::ZERO);
-        let of_gate = narrow(&mut self.gates[index], left);
-        together(of_gate, self.narrow_slice(index, passed))
-    }
-
-    fn narrow_slice(&mut self, index: usize, value: T) -> Contracted {
-        let of_slice = narrow(&mut self.slices[index], value);
+        let of_slice = self.narrow_slice_alone(index, input_gate + travel.within);
         let slice = self.slices[index];
-        let of_input = narrow(&mut self.gates[index], slice);
-        let of_output = narrow(&mut self.gates[index + 1], slice);
-        together(together(of_slice, of_input), of_output)
+        let of_input = self.narrow_gate(index, slice);
+        let of_output = self.narrow_gate(index + 1, (input_gate + travel.across) & slice);
+        debug_assert!(self.gates_are_inside(index));
+        together(of_slice, together(of_input, of_output))
     }
 
-    /// The exact length of a slice, enclosed: the difference of its borders may not be a `f64`.
-    fn duration_s(&self, index: usize) -> Interval {
-        let span = self.domain.slice_span(index).unwrap_or(Interval::ENTIRE);
-        Interval::spanning(span.upper(), span.upper()) - span.lower()
+    /// [`carry_forward`](Tube::carry_forward), from the output gate to the input gate.
+    #[inline]
+    pub(crate) fn carry_backward(&mut self, index: usize, derivative: T) -> Contracted {
+        let travel = Travel::new(derivative, self.domain.duration_at(index));
+        let output_gate = self.gates[index + 1];
+        let of_slice = self.narrow_slice_alone(index, output_gate - travel.within);
+        let slice = self.slices[index];
+        let of_output = self.narrow_gate(index + 1, slice);
+        let of_input = self.narrow_gate(index, (output_gate - travel.across) & slice);
+        debug_assert!(self.gates_are_inside(index));
+        together(of_slice, together(of_input, of_output))
+    }
+}
+
+/// How far a derivative leads in a slice.
+struct Travel<T> {
+    /// From its start to its end.
+    across: T,
+    /// From its start to any time of it.
+    within: T,
+}
+
+impl<T: Enclosure> Travel<T> {
+    #[inline]
+    fn new(derivative: T, duration_s: Interval) -> Travel<T> {
+        let across = derivative * duration_s;
+        // Rounding up is monotonic, so this is `derivative * [0, duration]` to the bit.
+        let within = if across.is_empty() { across } else { across | T::zero() };
+        Travel { across, within }
     }
 }
 

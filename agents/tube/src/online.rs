@@ -1,12 +1,14 @@
-//! A tube that grows at one end and is forgotten at the other, and what is learnt about it on the way.
+//! A tube that grows at one end and is forgotten at the other.
 
 use crate::enclosure::Enclosure;
 use crate::error::TubeError;
-use crate::tube::Tube;
-use shoal_interval::contractor::Contracted;
+use crate::storage::push_sparingly;
+use crate::summary::Slices;
+use crate::time_domain::Place;
+use crate::tube::{Tube, settled};
 
 impl<T: Enclosure> Tube<T> {
-    /// Adds a slice that ends at `end_s` seconds, with the gate at its end.
+    /// Adds a slice that ends at `end_s` seconds, with the gate at its end. In constant time, on average.
     ///
     /// The gates on both of its sides keep only what is inside the slice.
     ///
@@ -25,9 +27,14 @@ impl<T: Enclosure> Tube<T> {
     /// When the time is not finite or not after the end of the tube; the tube is then unchanged.
     pub fn append(&mut self, end_s: f64, slice: T, output_gate: T) -> Result<(), TubeError> {
         self.domain.append(end_s)?;
-        self.slices.push_back(slice);
-        self.gates.push_back(output_gate);
-        self.narrow_gates_of(self.slice_count() - 1);
+        let slice = settled(slice);
+        let output_gate = settled(output_gate) & slice;
+        self.narrow_gate(self.gates.len() - 1, slice);
+        push_sparingly(&mut self.slices, slice);
+        push_sparingly(&mut self.gates, output_gate);
+        self.empty_count += usize::from(slice.is_empty()) + usize::from(output_gate.is_empty());
+        self.summaries.append(Slices { domain: &self.domain, values: &self.slices });
+        debug_assert!(self.gates_are_inside(self.slice_count() - 1));
         Ok(())
     }
 
@@ -36,61 +43,31 @@ impl<T: Enclosure> Tube<T> {
     pub fn drop_front(&mut self, count: usize) {
         let count = count.min(self.slice_count());
         self.domain.drop_front(count);
-        self.slices.drain(..count);
-        self.gates.drain(..count);
+        let slices = self.slices.drain(..count).filter(T::is_empty).count();
+        let gates = self.gates.drain(..count).filter(T::is_empty).count();
+        self.empty_count -= slices + gates;
+        self.summaries.drop_front(count);
     }
 
-    /// Forgets all slices that end at `time_s` seconds or before, and returns how many they were.
+    /// Forgets all slices that end at `time_s` seconds or before, and returns how many they were; a NaN is before all.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{TimeDomain, Tube};
+    ///
+    /// let mut x_m = Tube::constant(TimeDomain::uniform(0.0, 0.5, 10)?, Interval::ZERO);
+    /// assert_eq!(x_m.drop_before(1.7), 3);
+    /// assert_eq!(x_m.domain().start_s(), 1.5);
+    /// # Ok::<(), shoal_tube::TubeError>(())
+    /// ```
     pub fn drop_before(&mut self, time_s: f64) -> usize {
-        let count = self.domain.borders_s().skip(1).take_while(|&end_s| end_s <= time_s).count();
+        let count = match self.domain.place_of(time_s) {
+            Ok(Place::Gate(index) | Place::Slice(index)) => index,
+            Err(_) if time_s > self.domain.end_s() => self.slice_count(),
+            Err(_) => 0,
+        };
         self.drop_front(count);
         count
-    }
-
-    /// Removes from gate `index` everything that is not in `value`. Other gates and slices wait for a contractor such as
-    /// [`contract_derivative`](Tube::contract_derivative) to carry it on.
-    ///
-    /// # Errors
-    /// When there is no such gate.
-    pub fn contract_gate(&mut self, index: usize, value: &T) -> Result<Contracted, TubeError> {
-        let count = self.gates.len();
-        let gate = self.gates.get_mut(index).ok_or(TubeError::NoSuchGate { index, count })?;
-        Ok(narrow(gate, *value))
-    }
-
-    /// Removes from slice `index`, and from the gates on both of its sides, everything that is not in `value`.
-    ///
-    /// # Errors
-    /// When there is no such slice.
-    pub fn contract_slice(&mut self, index: usize, value: &T) -> Result<Contracted, TubeError> {
-        let count = self.slices.len();
-        let slice = self.slices.get_mut(index).ok_or(TubeError::NoSuchSlice { index, count })?;
-        let of_slice = narrow(slice, *value);
-        let of_input = narrow(&mut self.gates[index], *value);
-        let of_output = narrow(&mut self.gates[index + 1], *value);
-        Ok(together(together(of_slice, of_input), of_output))
-    }
-}
-
-/// Intersects a set with another in place.
-pub(crate) fn narrow<T: Enclosure>(set: &mut T, other: T) -> Contracted {
-    let before = *set;
-    *set = before & other;
-    if set.is_empty() {
-        Contracted::Empty
-    } else if *set == before {
-        Contracted::Unchanged
-    } else {
-        Contracted::Narrowed
-    }
-}
-
-/// What two contractions on the same tube did in all.
-pub(crate) fn together(one: Contracted, other: Contracted) -> Contracted {
-    match (one, other) {
-        (Contracted::Empty, _) | (_, Contracted::Empty) => Contracted::Empty,
-        (Contracted::Unchanged, Contracted::Unchanged) => Contracted::Unchanged,
-        _ => Contracted::Narrowed,
     }
 }
 
@@ -98,6 +75,7 @@ pub(crate) fn together(one: Contracted, other: Contracted) -> Contracted {
 mod tests {
     use super::*;
     use shoal_interval::Interval;
+    use shoal_interval::contractor::Contracted;
 
     fn over(lower: f64, upper: f64) -> Interval {
         Interval::new(lower, upper).unwrap()

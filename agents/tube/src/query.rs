@@ -1,4 +1,6 @@
-//! Questions to a tube: where at this time, where over these times, when at this value.
+//! Where at this time, where over these times.
+
+mod with_derivative;
 
 use crate::enclosure::Enclosure;
 use crate::error::TubeError;
@@ -32,39 +34,14 @@ impl<T: Enclosure> Tube<T> {
         if times_s.is_point() {
             return self.at(times_s.lower());
         }
-        let first = match self.domain.place_of(times_s.lower())? {
-            Place::Gate(index) | Place::Slice(index) => index,
-        };
-        let after_last = match self.domain.place_of(times_s.upper())? {
-            Place::Gate(index) => index,
-            Place::Slice(index) => index + 1,
-        };
-        Ok(self.slices.range(first..after_last).fold(T::EMPTY, |hull, &slice| hull | slice))
-    }
-
-    /// All times, in seconds and as a hull, at which the trajectory may be in `values`; empty when it never is.
-    ///
-    /// Whole slices are returned: the trajectory may be there at any time of a slice that meets `values`.
-    ///
-    /// Source: seed 001, section 5.4.1, the inverse tube of a clock.
-    pub fn invert(&self, values: T) -> Interval {
-        let meets = |set: &T| !(*set & values).is_empty();
-        let (Some(first), Some(last)) =
-            (self.slices.iter().position(meets), self.slices.iter().rposition(meets))
-        else {
-            // A tube of no slice has one gate; otherwise gates are inside slices.
-            let on_gate = self.slices.is_empty() && meets(&self.gates[0]);
-            return if on_gate { self.domain.span() } else { Interval::EMPTY };
-        };
-        let span = |index| self.domain.slice_span(index).unwrap_or(Interval::EMPTY);
-        span(first) | span(last)
+        Ok(self.hull_of(self.domain.slices_over(times_s)?))
     }
 
     /// Whether `value` is where the tube says the trajectory is at `time_s` seconds. For holding a tube against the truth.
     ///
     /// # Errors
     /// When the time is not finite or outside the domain.
-    pub fn contains(&self, time_s: f64, value: &T::Point) -> Result<bool, TubeError> {
+    pub fn holds(&self, time_s: f64, value: &T::Point) -> Result<bool, TubeError> {
         Ok(self.at(time_s)?.contains(value))
     }
 }
@@ -92,7 +69,7 @@ mod tests {
         assert_eq!(ramp().over(over(0.9, 2.1)), Ok(over(0.0, 3.0)));
         assert_eq!(ramp().over(over(1.2, 1.3)), Ok(over(1.0, 2.0)));
         assert_eq!(ramp().over(Interval::EMPTY), Ok(Interval::EMPTY));
-        assert_eq!(ramp().contains(1.5, &1.5), Ok(true));
+        assert_eq!(ramp().holds(1.5, &1.5), Ok(true));
     }
 
     #[test]
@@ -100,15 +77,5 @@ mod tests {
         assert!(matches!(ramp().at(-0.1), Err(TubeError::OutsideDomain { .. })));
         assert!(matches!(ramp().over(over(3.0, 4.1)), Err(TubeError::OutsideDomain { .. })));
         assert!(matches!(ramp().over(Interval::ENTIRE), Err(TubeError::NotATime { .. })));
-    }
-
-    #[test]
-    fn inverses() {
-        assert_eq!(ramp().invert(over(1.5, 2.5)), over(1.0, 3.0));
-        assert_eq!(ramp().invert(over(2.0, 2.0)), over(1.0, 3.0));
-        assert_eq!(ramp().invert(over(5.0, 6.0)), Interval::EMPTY);
-        let instant = Tube::starting_at(3.0, Interval::ONE).unwrap();
-        assert_eq!(instant.invert(over(0.0, 2.0)), over(3.0, 3.0));
-        assert_eq!(instant.invert(over(2.0, 3.0)), Interval::EMPTY);
     }
 }

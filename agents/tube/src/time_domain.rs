@@ -1,14 +1,26 @@
 //! How time is cut into slices.
 
+mod regular;
+
 use crate::error::TubeError;
+use crate::storage::push_sparingly;
+use regular::Regular;
 use shoal_interval::Interval;
 use std::collections::VecDeque;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// How often the place of a time is guessed before it is bisected.
+const GUESSES: usize = 4;
 
 /// Strictly increasing times, in seconds, that cut an interval of time into slices.
 ///
 /// Slice `i` is the time from border `i` to border `i + 1`, both included; a domain of `n` slices has `n + 1` borders. The
-/// borders are exactly the `f64` that were given. Finding the slice of a time takes constant time when the slices are about
-/// as long as each other, and logarithmic time otherwise.
+/// borders are exactly the `f64` that were given.
+///
+/// A clone costs nothing: tubes of one vehicle share their domain, and a tube that grows or forgets takes a copy of its own
+/// only then. Slices of one length ([`uniform`](TimeDomain::uniform)) are not stored at all. The slice of a time is found
+/// in constant time when slices are about as long as each other, in logarithmic time otherwise.
 ///
 /// ```
 /// use shoal_tube::{Place, TimeDomain};
@@ -19,10 +31,17 @@ use std::collections::VecDeque;
 /// assert!(time.place_of(1.1).is_err());
 /// # Ok::<(), shoal_tube::TubeError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct TimeDomain {
+    borders: Borders,
+}
+
+#[derive(Debug, Clone)]
+enum Borders {
+    /// One step apart.
+    Regular(Regular),
     /// Never empty, finite, strictly increasing.
-    borders_s: VecDeque<f64>,
+    Listed(Arc<VecDeque<f64>>),
 }
 
 /// Where a time lies in a [`TimeDomain`].
@@ -45,6 +64,7 @@ impl TimeDomain {
         for border_s in borders_s {
             domain.append(border_s)?;
         }
+        domain.release_spare_memory();
         Ok(domain)
     }
 
@@ -53,18 +73,19 @@ impl TimeDomain {
     /// # Errors
     /// When the time is not finite.
     pub fn starting_at(start_s: f64) -> Result<TimeDomain, TubeError> {
-        Ok(TimeDomain { borders_s: VecDeque::from([finite(start_s)?]) })
+        Ok(TimeDomain { borders: Borders::Regular(Regular::instant(finite(start_s)?)) })
     }
 
-    /// `count` slices of `step_s` seconds each; border `i` is `start_s + i * step_s`, rounded to nearest.
+    /// `count` slices of `step_s` seconds each; border `i` is `start_s + i * step_s`, rounded to nearest. Takes no memory.
     ///
     /// # Errors
-    /// When a time is not finite, or the step is not positive or too small to be seen next to the start.
+    /// When a time is not finite, or the step is not positive or too small to be seen next to the times.
     pub fn uniform(start_s: f64, step_s: f64, count: usize) -> Result<TimeDomain, TubeError> {
-        TimeDomain::new((0..=count).map(|index| start_s + index as f64 * step_s))
+        let borders = Regular::new(finite(start_s)?, finite(step_s)?, count)?;
+        Ok(TimeDomain { borders: Borders::Regular(borders) })
     }
 
-    /// Adds a slice that ends at `end_s`.
+    /// Adds a slice that ends at `end_s`. A uniform domain stays uniform if that is where its next border is.
     ///
     /// # Errors
     /// When the time is not finite or not after the current end; the domain is then unchanged.
@@ -72,31 +93,77 @@ impl TimeDomain {
         if finite(end_s)? <= self.end_s() {
             return Err(TubeError::Unsorted { previous_s: self.end_s(), next_s: end_s });
         }
-        self.borders_s.push_back(end_s);
+        match &mut self.borders {
+            Borders::Regular(regular) => {
+                if !regular.append(end_s) {
+                    let borders_s = self.borders_s().chain([end_s]).collect();
+                    self.borders = Borders::Listed(Arc::new(borders_s));
+                }
+            }
+            Borders::Listed(listed_s) => push_sparingly(Arc::make_mut(listed_s), end_s),
+        }
         Ok(())
     }
 
     /// Forgets the `count` oldest slices, or all if there are fewer; the end of the last one always stays.
     pub fn drop_front(&mut self, count: usize) {
-        self.borders_s.drain(..count.min(self.slice_count()));
+        let count = count.min(self.slice_count());
+        match &mut self.borders {
+            Borders::Regular(regular) => regular.drop_front(count),
+            Borders::Listed(listed_s) => match Arc::get_mut(listed_s) {
+                Some(own_s) => drop(own_s.drain(..count)),
+                None => *listed_s = Arc::new(listed_s.range(count..).copied().collect()),
+            },
+        }
+    }
+
+    /// The same domain, cut at `times_s` too, in any order; times that are borders already change nothing.
+    ///
+    /// ```
+    /// use shoal_tube::TimeDomain;
+    ///
+    /// let time = TimeDomain::uniform(0.0, 1.0, 2)?.refined([1.25, 0.5, 1.0])?;
+    /// assert!(time.borders_s().eq([0.0, 0.5, 1.0, 1.25, 2.0]));
+    /// # Ok::<(), shoal_tube::TubeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When a time is not finite or outside the domain.
+    pub fn refined(&self, times_s: impl IntoIterator<Item = f64>) -> Result<TimeDomain, TubeError> {
+        let mut cuts_s = Vec::new();
+        for time_s in times_s {
+            if let Place::Slice(_) = self.place_of(time_s)? {
+                cuts_s.push(time_s);
+            }
+        }
+        if cuts_s.is_empty() {
+            return Ok(self.clone());
+        }
+        cuts_s.extend(self.borders_s());
+        cuts_s.sort_by(f64::total_cmp);
+        cuts_s.dedup();
+        TimeDomain::new(cuts_s)
     }
 
     /// The number of slices.
     #[inline]
     pub fn slice_count(&self) -> usize {
-        self.borders_s.len() - 1
+        match &self.borders {
+            Borders::Regular(regular) => regular.slice_count(),
+            Borders::Listed(listed_s) => listed_s.len() - 1,
+        }
     }
 
     /// The first border, in seconds.
     #[inline]
     pub fn start_s(&self) -> f64 {
-        self.borders_s[0]
+        self.border_at(0)
     }
 
     /// The last border, in seconds.
     #[inline]
     pub fn end_s(&self) -> f64 {
-        self.borders_s[self.borders_s.len() - 1]
+        self.border_at(self.slice_count())
     }
 
     /// All times of the domain, in seconds.
@@ -104,48 +171,159 @@ impl TimeDomain {
         Interval::spanning(self.start_s(), self.end_s())
     }
 
+    /// Border `index`, in seconds.
+    #[inline]
+    pub fn border_s(&self, index: usize) -> Option<f64> {
+        (index <= self.slice_count()).then(|| self.border_at(index))
+    }
+
     /// The borders, in seconds, from the oldest on.
-    pub fn borders_s(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
-        self.borders_s.iter().copied()
+    pub fn borders_s(&self) -> impl ExactSizeIterator<Item = f64> + DoubleEndedIterator + '_ {
+        (0..self.slice_count() + 1).map(|index| self.border_at(index))
     }
 
     /// The times of one slice, in seconds.
     #[inline]
     pub fn slice_span(&self, index: usize) -> Option<Interval> {
-        let (start_s, end_s) = (self.borders_s.get(index)?, self.borders_s.get(index + 1)?);
-        Some(Interval::spanning(*start_s, *end_s))
+        (index < self.slice_count()).then(|| self.span_at(index))
+    }
+
+    /// The length of one slice, in seconds: an enclosure, because the difference of two borders may not be a `f64`.
+    #[inline]
+    pub fn slice_duration_s(&self, index: usize) -> Option<Interval> {
+        (index < self.slice_count()).then(|| self.duration_at(index))
     }
 
     /// The border or the slice that a time is in.
     ///
     /// # Errors
     /// When the time is not finite or outside the domain.
+    #[inline]
     pub fn place_of(&self, time_s: f64) -> Result<Place, TubeError> {
         let (start_s, end_s) = (self.start_s(), self.end_s());
         if finite(time_s)? < start_s || time_s > end_s {
             return Err(TubeError::OutsideDomain { time_s, start_s, end_s });
         }
         let border = self.last_border_up_to(time_s);
-        Ok(if self.borders_s[border] == time_s { Place::Gate(border) } else { Place::Slice(border) })
+        Ok(if self.border_at(border) == time_s { Place::Gate(border) } else { Place::Slice(border) })
+    }
+
+    /// The bytes on the heap. Domains that are clones of each other share them.
+    pub fn memory_bytes(&self) -> usize {
+        match &self.borders {
+            Borders::Regular(_) => 0,
+            Borders::Listed(listed_s) => size_of::<VecDeque<f64>>() + listed_s.capacity() * size_of::<f64>(),
+        }
+    }
+
+    /// The slices that `times_s` touches, those that it only touches at its ends left out. `times_s` is in the domain and
+    /// longer than an instant.
+    #[inline]
+    pub(crate) fn slices_over(&self, times_s: Interval) -> Result<Range<usize>, TubeError> {
+        let first = match self.place_of(times_s.lower())? {
+            Place::Gate(index) | Place::Slice(index) => index,
+        };
+        let after_last = match self.place_of(times_s.upper())? {
+            Place::Gate(index) => index,
+            Place::Slice(index) => index + 1,
+        };
+        Ok(first..after_last)
+    }
+
+    /// Border `index`, which the caller knows to exist.
+    #[inline]
+    pub(crate) fn border_at(&self, index: usize) -> f64 {
+        match &self.borders {
+            Borders::Regular(regular) => regular.border_s(index),
+            Borders::Listed(listed_s) => listed_s[index],
+        }
+    }
+
+    /// The times of slice `index`, which the caller knows to exist.
+    #[inline]
+    pub(crate) fn span_at(&self, index: usize) -> Interval {
+        Interval::spanning(self.border_at(index), self.border_at(index + 1))
+    }
+
+    /// The length of slice `index`, which the caller knows to exist.
+    #[inline]
+    pub(crate) fn duration_at(&self, index: usize) -> Interval {
+        exactly(self.border_at(index + 1)) - self.border_at(index)
+    }
+
+    pub(crate) fn release_spare_memory(&mut self) {
+        if let Borders::Listed(listed_s) = &mut self.borders
+            && let Some(own_s) = Arc::get_mut(listed_s)
+        {
+            own_s.shrink_to_fit();
+        }
+    }
+
+    /// The start, the step and the number of slices, when the borders are one step apart as in
+    /// [`uniform`](TimeDomain::uniform).
+    #[cfg(feature = "serde")]
+    pub(crate) fn as_uniform(&self) -> Option<(f64, f64, usize)> {
+        match &self.borders {
+            Borders::Regular(regular) => regular.as_given(),
+            Borders::Listed(_) => None,
+        }
     }
 
     /// The index of the last border that is not after a time of the domain.
+    ///
+    /// Guesses as if all slices were as long as the mean one, from closer and closer borders; what is left between the
+    /// borders that were tried is bisected.
+    #[inline]
     fn last_border_up_to(&self, time_s: f64) -> usize {
-        let share = (time_s - self.start_s()) / (self.end_s() - self.start_s());
-        // A cast of NaN, from a domain without slices, gives zero.
-        let guess = (share * self.slice_count() as f64) as usize;
-        for border in guess.saturating_sub(1)..=guess + 1 {
-            if self.starts_last_before(border, time_s) {
-                return border;
+        let last = self.slice_count();
+        let slices_per_s = match &self.borders {
+            Borders::Regular(regular) => 1.0 / regular.step_s(),
+            Borders::Listed(_) => last as f64 / (self.end_s() - self.start_s()),
+        };
+        // Border `low` is not after the time; border `high`, if there is one, is.
+        let (mut low, mut high) = (0, last + 1);
+        let (mut known, mut known_s) = (0, self.start_s());
+        for _ in 0..GUESSES {
+            // A cast of NaN, from a domain of infinite length, gives zero.
+            let guess = (known as f64 + (time_s - known_s) * slices_per_s) as usize;
+            known = guess.clamp(low, high - 1);
+            known_s = self.border_at(known);
+            if known_s <= time_s {
+                if known == last || time_s < self.border_at(known + 1) {
+                    return known;
+                }
+                low = known + 1;
+            } else {
+                if self.border_at(known - 1) <= time_s {
+                    return known - 1;
+                }
+                high = known - 1;
             }
         }
-        self.borders_s.partition_point(|&border_s| border_s <= time_s).saturating_sub(1)
+        while high - low > 1 {
+            let middle = usize::midpoint(low, high);
+            if self.border_at(middle) <= time_s { low = middle } else { high = middle }
+        }
+        low
     }
+}
 
-    fn starts_last_before(&self, border: usize, time_s: f64) -> bool {
-        self.borders_s.get(border).is_some_and(|&border_s| border_s <= time_s)
-            && self.borders_s.get(border + 1).is_none_or(|&next_s| time_s < next_s)
+/// Two domains are equal when their borders are. Looks at the borders only if they are not shared.
+impl PartialEq for TimeDomain {
+    fn eq(&self, other: &TimeDomain) -> bool {
+        let shared = match (&self.borders, &other.borders) {
+            (Borders::Regular(own), Borders::Regular(others)) => own == others,
+            (Borders::Listed(own), Borders::Listed(others)) => Arc::ptr_eq(own, others),
+            _ => false,
+        };
+        shared || (self.slice_count() == other.slice_count() && self.borders_s().eq(other.borders_s()))
     }
+}
+
+/// The time itself, as an interval.
+#[inline]
+pub(crate) fn exactly(time_s: f64) -> Interval {
+    Interval::spanning(time_s, time_s)
 }
 
 fn finite(time_s: f64) -> Result<f64, TubeError> {
@@ -153,52 +331,4 @@ fn finite(time_s: f64) -> Result<f64, TubeError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    #[test]
-    fn bad_times_are_refused() {
-        assert_eq!(TimeDomain::new([]), Err(TubeError::NoBorder));
-        assert!(matches!(TimeDomain::new([0.0, f64::NAN]), Err(TubeError::NotATime { .. })));
-        assert!(matches!(TimeDomain::new([0.0, 1.0, 1.0]), Err(TubeError::Unsorted { .. })));
-        assert!(TimeDomain::uniform(0.0, -1.0, 2).is_err());
-        assert!(TimeDomain::uniform(1e18, 1.0, 2).is_err());
-        let time = TimeDomain::starting_at(2.0).unwrap();
-        assert_eq!(time.place_of(2.0), Ok(Place::Gate(0)));
-        assert!(matches!(time.place_of(2.1), Err(TubeError::OutsideDomain { .. })));
-        assert!(time.place_of(f64::INFINITY).is_err());
-    }
-
-    #[test]
-    fn dropping_keeps_the_end() {
-        let mut time = TimeDomain::uniform(0.0, 1.0, 4).unwrap();
-        time.drop_front(1);
-        assert_eq!((time.start_s(), time.slice_count()), (1.0, 3));
-        time.drop_front(100);
-        assert_eq!((time.start_s(), time.end_s(), time.slice_count()), (4.0, 4.0, 0));
-        assert_eq!(time.slice_span(0), None);
-    }
-
-    proptest! {
-        #[test]
-        fn every_time_is_found(
-            steps in prop::collection::vec(prop_oneof![1.0e-9..1.0e-3_f64, 0.1..10.0_f64], 1..50),
-            share in 0.0..=1.0_f64,
-        ) {
-            let borders = steps.iter().scan(-3.0, |time, step| { *time += step; Some(*time) });
-            let time = TimeDomain::new(borders).unwrap();
-            let asked = (time.start_s() + share * (time.end_s() - time.start_s())).min(time.end_s());
-            match time.place_of(asked).unwrap() {
-                Place::Gate(index) => prop_assert_eq!(time.borders_s().nth(index), Some(asked)),
-                Place::Slice(index) => {
-                    let span = time.slice_span(index).unwrap();
-                    prop_assert!(span.lower() < asked && asked < span.upper());
-                }
-            }
-            for (index, border) in time.borders_s().enumerate() {
-                prop_assert_eq!(time.place_of(border), Ok(Place::Gate(index)));
-            }
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,101 @@
+//! What is learnt about a tube is intersected with it.
+//!
+//! The functions for use in other contractors of the crate, `narrow_slice` and `narrow_gate`, leave the summaries of the
+//! tube as they are: whoever narrows slices with them calls [`Tube::refresh`] once at the end, on all that may have changed.
+
+use crate::enclosure::Enclosure;
+use crate::error::TubeError;
+use crate::tube::Tube;
+use shoal_interval::contractor::Contracted;
+
+impl<T: Enclosure> Tube<T> {
+    /// Removes from gate `index` everything that is not in `value`. Other gates and slices wait for a contractor such as
+    /// [`contract_derivative`](Tube::contract_derivative) to carry it on.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{Contracted, TimeDomain, Tube};
+    ///
+    /// let mut depth_m = Tube::constant(TimeDomain::uniform(0.0, 1.0, 9)?, Interval::new(0.0, 50.0)?);
+    /// assert_eq!(depth_m.contract_gate(3, &Interval::new(10.0, 90.0)?)?, Contracted::Narrowed);
+    /// assert_eq!(depth_m.at(3.0)?, Interval::new(10.0, 50.0)?);
+    /// // A sensor that answers NaN says nothing, and takes nothing away.
+    /// let lost = Interval::spanning(f64::NAN, f64::NAN);
+    /// assert_eq!(depth_m.contract_gate(3, &lost)?, Contracted::Unchanged);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When there is no such gate.
+    pub fn contract_gate(&mut self, index: usize, value: &T) -> Result<Contracted, TubeError> {
+        self.check_gate(index)?;
+        Ok(self.narrow_gate(index, *value))
+    }
+
+    /// Removes from slice `index`, and from the gates on both of its sides, everything that is not in `value`.
+    ///
+    /// # Errors
+    /// When there is no such slice.
+    pub fn contract_slice(&mut self, index: usize, value: &T) -> Result<Contracted, TubeError> {
+        self.check_slice(index)?;
+        let contracted = self.narrow_slice(index, *value);
+        if contracted != Contracted::Unchanged {
+            self.refresh(index..index + 1);
+        }
+        Ok(contracted)
+    }
+
+    /// Intersects a gate, which the caller knows to exist. No summary speaks of gates.
+    #[inline]
+    pub(crate) fn narrow_gate(&mut self, index: usize, value: T) -> Contracted {
+        narrow(&mut self.gates[index], value, &mut self.empty_count)
+    }
+
+    /// Intersects a slice, which the caller knows to exist, and with it the gates beside. The summaries wait for
+    /// [`refresh`](Tube::refresh).
+    #[inline]
+    pub(crate) fn narrow_slice(&mut self, index: usize, value: T) -> Contracted {
+        let of_slice = self.narrow_slice_alone(index, value);
+        let slice = self.slices[index];
+        let of_input = self.narrow_gate(index, slice);
+        let of_output = self.narrow_gate(index + 1, slice);
+        debug_assert!(self.gates_are_inside(index));
+        together(together(of_slice, of_input), of_output)
+    }
+
+    /// [`narrow_slice`](Tube::narrow_slice) for a caller that narrows the two gates to the slice itself.
+    #[inline]
+    pub(crate) fn narrow_slice_alone(&mut self, index: usize, value: T) -> Contracted {
+        narrow(&mut self.slices[index], value, &mut self.empty_count)
+    }
+
+    /// What must always be true of a slice.
+    pub(crate) fn gates_are_inside(&self, index: usize) -> bool {
+        self.gates.range(index..index + 2).all(|gate| gate.is_subset_of(&self.slices[index]))
+    }
+}
+
+/// Intersects a set with another in place, and counts it if it became empty.
+#[inline]
+fn narrow<T: Enclosure>(set: &mut T, other: T, empty_count: &mut usize) -> Contracted {
+    let before = *set;
+    *set = before & other;
+    if set.is_empty() {
+        *empty_count += usize::from(!before.is_empty());
+        Contracted::Empty
+    } else if *set == before {
+        Contracted::Unchanged
+    } else {
+        Contracted::Narrowed
+    }
+}
+
+/// What two contractions on the same tube did in all.
+#[inline]
+pub(crate) fn together(one: Contracted, other: Contracted) -> Contracted {
+    match (one, other) {
+        (Contracted::Empty, _) | (_, Contracted::Empty) => Contracted::Empty,
+        (Contracted::Unchanged, Contracted::Unchanged) => Contracted::Unchanged,
+        _ => Contracted::Narrowed,
+    }
+}

@@ -1,0 +1,232 @@
+//! Sharper answers inside slices, for a tube whose derivative is enclosed by another tube.
+//!
+//! From a gate the trajectory can only go as the derivative allows, so inside a slice it is in two cones, one from each
+//! gate. At a time `t` of slice `i`, with `[v]` the derivative over it,
+//! `x(t) ∈ slice ∩ (input gate + (t - t_i) [v]) ∩ (output gate - (t_{i+1} - t) [v])`.
+//! Source: seed 001, equations (4.5) and (5.5), from both ends of a slice.
+
+use crate::enclosure::Enclosure;
+use crate::error::TubeError;
+use crate::inversion::Components;
+use crate::summary::{Part, Step};
+use crate::time_domain::{Place, exactly};
+use crate::tube::Tube;
+use shoal_interval::Interval;
+use std::ops::{ControlFlow, Range};
+
+impl<T: Enclosure> Tube<T> {
+    /// What holds the trajectory at `time_s` seconds if its derivative is in `derivative`: inside
+    /// [`at`](Tube::at), and smaller between gates.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{TimeDomain, Tube};
+    ///
+    /// let speed_m_s = Tube::constant(TimeDomain::uniform(0.0, 1.0, 4)?, Interval::new(1.0, 2.0)?);
+    /// let x_m = Tube::primitive(&speed_m_s, Interval::ZERO);
+    /// assert_eq!(x_m.at(0.5)?, Interval::new(0.0, 2.0)?);
+    /// assert_eq!(x_m.at_with_derivative(0.5, &speed_m_s)?, Interval::new(0.5, 1.0)?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the time is not finite or outside the domain, or the two tubes are cut at different times.
+    pub fn at_with_derivative(&self, time_s: f64, derivative: &Tube<T>) -> Result<T, TubeError> {
+        self.check_same_domain(derivative)?;
+        Ok(match self.domain.place_of(time_s)? {
+            Place::Gate(index) => self.gates[index],
+            Place::Slice(index) => self.in_cones(index, exactly(time_s), derivative.slices[index]),
+        })
+    }
+
+    /// What holds the trajectory over some times of a slice: the slice and the two cones.
+    #[inline]
+    pub(crate) fn in_cones(&self, index: usize, times_s: Interval, slope: T) -> T {
+        let after_input_s = (times_s - self.domain.border_at(index)) & Interval::NON_NEGATIVE;
+        let before_output_s = (self.domain.border_at(index + 1) - times_s) & Interval::NON_NEGATIVE;
+        self.slices[index]
+            & (self.gates[index] + slope * after_input_s)
+            & (self.gates[index + 1] - slope * before_output_s)
+    }
+}
+
+impl Tube<Interval> {
+    /// What holds the trajectory over all of `times_s`, in seconds, if its derivative is in `derivative`: inside
+    /// [`over`](Tube::over), and smaller where `times_s` ends inside a slice. In logarithmic time.
+    ///
+    /// In the slices in which `times_s` ends it is the hull of the two cones, tightest but for rounding.
+    ///
+    /// # Errors
+    /// When some of the times are outside the domain, or the two tubes are cut at different times.
+    pub fn over_with_derivative(
+        &self,
+        times_s: Interval,
+        derivative: &Tube<Interval>,
+    ) -> Result<Interval, TubeError> {
+        self.check_same_domain(derivative)?;
+        if times_s.is_empty() {
+            return Ok(Interval::EMPTY);
+        }
+        if times_s.is_point() {
+            return self.at_with_derivative(times_s.lower(), derivative);
+        }
+        let range = self.domain.slices_over(times_s)?;
+        let end = |index: usize| {
+            self.over_cones(index, self.domain.span_at(index) & times_s, derivative.slices[index])
+        };
+        let (first, last) = (range.start, range.end - 1);
+        let between = if first + 1 < last { self.hull_of(first + 1..last) } else { Interval::EMPTY };
+        Ok(end(first) | between | if first < last { end(last) } else { Interval::EMPTY })
+    }
+
+    /// All times of `within`, in seconds and as a hull, at which the trajectory may be in `values` if its derivative is in
+    /// `derivative`. Sharper than [`invert_within`](Tube::invert_within): slices are cut by the two cones.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{TimeDomain, Tube};
+    ///
+    /// let speed_m_s = Tube::constant(TimeDomain::uniform(0.0, 1.0, 9)?, Interval::new(1.0, 2.0)?);
+    /// let x_m = Tube::primitive(&speed_m_s, Interval::ZERO);
+    /// let at_three_m = Interval::point(3.0)?;
+    /// assert_eq!(x_m.invert(at_three_m), Interval::new(1.0, 4.0)?);
+    /// let sharper = x_m.invert_with_derivative(at_three_m, &speed_m_s, Interval::ENTIRE)?;
+    /// assert_eq!(sharper, Interval::new(1.5, 3.0)?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the two tubes are cut at different times.
+    pub fn invert_with_derivative(
+        &self,
+        values: Interval,
+        derivative: &Tube<Interval>,
+        within: Interval,
+    ) -> Result<Interval, TubeError> {
+        self.check_same_domain(derivative)?;
+        let within = within & self.domain.span();
+        let Some(mut range) = self.slices_touched(within) else {
+            return Ok(self.instant_with_derivative(values, derivative, within));
+        };
+        let times_in = |index: usize| self.times_in_cones(index, values, derivative.slices[index]) & within;
+        let mut first_s = Interval::EMPTY;
+        while let Some(index) = self.first_meeting(range.clone(), &values) {
+            range.start = index + 1;
+            first_s = times_in(index);
+            if !first_s.is_empty() {
+                break;
+            }
+        }
+        let mut last_s = Interval::EMPTY;
+        while let Some(index) = self.last_meeting(range.clone(), &values) {
+            range.end = index;
+            last_s = times_in(index);
+            if !last_s.is_empty() {
+                break;
+            }
+        }
+        Ok(first_s | last_s)
+    }
+
+    /// [`invert_with_derivative`](Tube::invert_with_derivative) as disjoint intervals in order.
+    ///
+    /// # Errors
+    /// When the two tubes are cut at different times.
+    pub fn invert_components_with_derivative(
+        &self,
+        values: Interval,
+        derivative: &Tube<Interval>,
+        within: Interval,
+    ) -> Result<Vec<Interval>, TubeError> {
+        self.check_same_domain(derivative)?;
+        let within = within & self.domain.span();
+        let mut components = Components::default();
+        match self.slices_touched(within) {
+            Some(range) => self.each_meeting(range, values, |index| {
+                components.add(self.times_in_cones(index, values, derivative.slices[index]) & within);
+            }),
+            None => components.add(self.instant_with_derivative(values, derivative, within)),
+        }
+        Ok(components.times_s)
+    }
+
+    fn instant_with_derivative(
+        &self,
+        values: Interval,
+        derivative: &Tube<Interval>,
+        instant: Interval,
+    ) -> Interval {
+        let meets = !instant.is_empty()
+            && self
+                .at_with_derivative(instant.lower(), derivative)
+                .is_ok_and(|set| !set.is_disjoint_from(values));
+        if meets { instant } else { Interval::EMPTY }
+    }
+
+    fn each_meeting(&self, range: Range<usize>, values: Interval, mut visit: impl FnMut(usize)) {
+        let walked: ControlFlow<()> = self.summaries.walk(range, |part| match part {
+            Part::Block(_, summary) if summary.hull.is_disjoint_from(values) => Step::Past,
+            Part::Block(..) => Step::Into,
+            Part::Slices(range) => {
+                range.filter(|&index| !self.slices[index].is_disjoint_from(values)).for_each(&mut visit);
+                Step::Past
+            }
+        });
+        debug_assert!(walked.is_continue());
+    }
+
+    /// The hull of the trajectory over some times of a slice.
+    ///
+    /// The two cones bound it by two lines above and two below. Cut about where each pair of lines crosses, the hull of
+    /// the parts is the hull of the whole; wherever the cuts are, nothing is lost.
+    fn over_cones(&self, index: usize, times_s: Interval, slope: Interval) -> Interval {
+        let (start_s, end_s) = (self.domain.border_at(index), self.domain.border_at(index + 1));
+        let (input, output) = (self.gates[index], self.gates[index + 1]);
+        let crossing = |from: f64, up: f64, to: f64, down: f64| {
+            let since_start_s = (to - from - down * (end_s - start_s)) / (up - down);
+            let crossing_s = start_s + since_start_s;
+            if crossing_s.is_nan() {
+                times_s.lower()
+            } else {
+                crossing_s.clamp(times_s.lower(), times_s.upper())
+            }
+        };
+        let peak_s = crossing(input.upper(), slope.upper(), output.upper(), slope.lower());
+        let trough_s = crossing(input.lower(), slope.lower(), output.lower(), slope.upper());
+        let (one_s, other_s) = (peak_s.min(trough_s), peak_s.max(trough_s));
+        let parts = [(times_s.lower(), one_s), (one_s, other_s), (other_s, times_s.upper())];
+        parts.into_iter().fold(Interval::EMPTY, |hull, (from_s, to_s)| {
+            hull | self.in_cones(index, Interval::spanning(from_s, to_s), slope)
+        })
+    }
+
+    /// The times of a slice at which both cones meet `values`. Each of the four lines lets through one side.
+    pub(crate) fn times_in_cones(&self, index: usize, values: Interval, slope: Interval) -> Interval {
+        let span_s = self.domain.span_at(index);
+        let (input, output) = (self.gates[index], self.gates[index + 1]);
+        let values = values & self.slices[index];
+        if values.is_empty() || input.is_empty() || output.is_empty() || slope.is_empty() {
+            return Interval::EMPTY;
+        }
+        // Since the input gate: low + slope.lower() * s <= values.upper(), high + slope.upper() * s >= values.lower().
+        let since_input_s = not_above(input.lower(), slope.lower(), values.upper())
+            & not_above(-input.upper(), -slope.upper(), -values.lower());
+        let until_output_s = not_above(output.lower(), -slope.upper(), values.upper())
+            & not_above(-output.upper(), slope.lower(), -values.lower());
+        let after_input = since_input_s + span_s.lower();
+        let before_output = span_s.upper() - until_output_s;
+        span_s & after_input & before_output
+    }
+}
+
+/// All `s` for which `start + slope * s` may be at most `limit`. Lines that are not finite are no limit.
+fn not_above(start: f64, slope: f64, limit: f64) -> Interval {
+    if !start.is_finite() || !slope.is_finite() || !limit.is_finite() {
+        return Interval::ENTIRE;
+    }
+    let room = exactly(limit) - start - Interval::NON_NEGATIVE;
+    if slope == 0.0 {
+        return if room.contains(0.0) { Interval::ENTIRE } else { Interval::EMPTY };
+    }
+    room / slope
+}
