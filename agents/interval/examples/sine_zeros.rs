@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use shoal_interval::contractor::{Contractor, from_fn};
 use shoal_interval::figure::{Class, Figure, figures_folder};
-use shoal_interval::paving::{Options, csivia, from_test_fn, set_inversion, sivia};
+use shoal_interval::paving::{Options, csivia, from_test_fn, sivia, total_set_inversion};
 use shoal_interval::{Interval, IntervalBox, Membership};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -11,7 +11,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Between the widths 1/16, of the boxes that the seed prints, and 1/8, of their parents.
     let options = Options::new(0.1);
     let contractor = from_fn(|x: IntervalBox<1>| IntervalBox::from([Interval::ZERO.sin_rev(x[0])]));
-    let sine = set_inversion(|x: &IntervalBox<1>| x.map(Interval::sin), IntervalBox::from([Interval::ZERO]));
+    let sine =
+        total_set_inversion(|x: &IntervalBox<1>| x.map(Interval::sin), IntervalBox::from([Interval::ZERO]));
     // The set is thin: no box is inside, and the contractor says all that there is to say.
     let thin = from_test_fn(|_: &IntervalBox<1>| Membership::Undecided);
 

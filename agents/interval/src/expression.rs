@@ -162,7 +162,8 @@ impl<const N: usize, const M: usize> Expression<N, M> {
 
     /// The natural inclusion function: every operation is done with intervals.
     ///
-    /// Holds the value at every vector of `domain` that has one. Inclusion monotonic; minimal but for rounding when each
+    /// Holds the value at every vector of `domain` that has one. Inclusion monotonic, but for the last place of
+    /// [`powf`](Interval::powf); minimal but for rounding when each
     /// variable occurs once and the function is continuous; convergent when it is continuous.
     ///
     /// Source: seed 001, section 2.3.4.

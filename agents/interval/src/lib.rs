@@ -39,7 +39,8 @@
 //!
 //! Elementary functions come from `pxfm`, are widened by a unit in the last place, and are held against a correctly rounded
 //! library on a million arguments each; where `pxfm` was found to be off by more, other ways are gone. The crate passes every
-//! check of the IEEE 1788 test suite whose operation it offers.
+//! check of the IEEE 1788 test suite whose operation it offers (5,279; six of its results are not the tightest, and are asked for
+//! as the tightest): `cargo test --release -p shoal-interval --test itf1788 -- --nocapture` counts them.
 //!
 //! ```
 //! use shoal_interval::Interval;

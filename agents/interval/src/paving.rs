@@ -44,7 +44,7 @@ mod sivia;
 
 pub use error::PavingError;
 pub use inclusion_test::{
-    FromTestFn, InclusionTest, Relaxed, SetInversion, from_test_fn, relaxed, set_inversion,
+    FromTestFn, InclusionTest, Relaxed, SetInversion, from_test_fn, relaxed, total_set_inversion,
 };
 pub use options::Options;
 pub use outliers::{Outliers, gomne};

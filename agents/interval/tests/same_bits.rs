@@ -19,7 +19,7 @@ const OPERATIONS: &[Operation] = &[
     ("sqrt", 0x6edf_f723_582c_2306, |x, _| x.sqrt()),
     ("powi", 0xc646_7278_a8ae_1b8a, |x, _| x.powi(5) | x.powi(-3)),
     ("powf", 0x1e6f_31ac_4252_e600, |x, y| x.abs().powf(y)),
-    ("exp", 0x55a0_465f_70de_fa29, |x, _| x.exp()),
+    ("exp", 0x4a5e_154b_c592_848d, |x, _| x.exp()),
     ("ln", 0xee51_6365_4ae2_df9f, |x, _| x.abs().ln()),
     ("sin", 0xe8c3_601b_a931_db94, |x, _| x.sin()),
     ("cos", 0xf96b_8dcf_901c_14fa, |x, _| x.cos()),

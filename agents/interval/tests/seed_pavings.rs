@@ -5,7 +5,7 @@ use shoal_interval::contractor::{Contractor, Sector, from_fn};
 use shoal_interval::figure::Figure;
 use shoal_interval::fuzzy::{AlphaCut, Grade, Score, ScoreFunction};
 use shoal_interval::paving::{
-    Options, Paving, Stopped, csivia, from_test_fn, gomne, pave, rsivia, set_inversion, sivia,
+    Options, Paving, Stopped, csivia, from_test_fn, gomne, pave, rsivia, sivia, total_set_inversion,
 };
 use shoal_interval::separator::{
     InBox, Ring, Separator, from_contractors, intersection_of, q_intersection, union_of,
@@ -157,7 +157,8 @@ fn common_area(seen: &[(Vector2<f64>, Interval)]) -> f64 {
 fn zeros_of_the_sine() {
     let domain = IntervalBox::from([over(-1.0, 7.0)]);
     let options = Options::new(0.1);
-    let sine = set_inversion(|x: &IntervalBox<1>| x.map(Interval::sin), IntervalBox::from([Interval::ZERO]));
+    let sine =
+        total_set_inversion(|x: &IntervalBox<1>| x.map(Interval::sin), IntervalBox::from([Interval::ZERO]));
     let classical = sivia(&sine, domain, &options).unwrap();
     assert_eq!(classical.statistics().boxes, 45);
     let printed = [over(-0.0625, 0.0), over(0.0, 0.0625), over(3.125, 3.1875), over(6.25, 6.3125)];

@@ -87,6 +87,10 @@ pub struct RingComplement<const N: usize> {
 impl<const N: usize> Contractor<N> for RingComplement<N> {
     #[inline]
     fn contract(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
+        if self.inside.centre.is_empty() {
+            // Without a centre there is no ring that anything could be proved to be in.
+            return domain;
+        }
         self.inside.contract(domain) | self.outside.contract(domain)
     }
 }

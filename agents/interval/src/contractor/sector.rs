@@ -25,17 +25,19 @@ use crate::interval_box::IntervalBox;
 pub struct Sector {
     apex: IntervalBox<2>,
     bearing: Interval,
+    /// Whether the points see the apex, and not the apex the points. Turning the bearing by π instead would round it.
+    of_viewers: bool,
 }
 
 impl Sector {
     /// The points that `apex` sees under `bearing`.
     pub fn new(apex: IntervalBox<2>, bearing: Interval) -> Sector {
-        Sector { apex, bearing }
+        Sector { apex, bearing, of_viewers: false }
     }
 
     /// The points that see `landmark` under `bearing`: the sector on the other side of the landmark.
     pub fn of_viewers(landmark: IntervalBox<2>, bearing: Interval) -> Sector {
-        Sector { apex: landmark, bearing: bearing + Interval::PI }
+        Sector { apex: landmark, bearing, of_viewers: true }
     }
 
     /// The contractor for what is not in the sector.
@@ -48,19 +50,20 @@ impl Sector {
             let turned = Interval::spanning(self.bearing.lower(), self.bearing.lower()) + Interval::TWO_PI;
             Interval::new(self.bearing.upper(), turned.upper()).unwrap_or(Interval::EMPTY)
         };
-        SectorComplement { rest: Sector { apex: self.apex, bearing } }
+        SectorComplement { rest: Sector { bearing, ..self } }
     }
 }
 
 impl Contractor<2> for Sector {
     #[inline]
     fn contract(&self, domain: IntervalBox<2>) -> IntervalBox<2> {
-        let difference = domain - self.apex;
+        let difference = if self.of_viewers { self.apex - domain } else { domain - self.apex };
         let ([mut x, mut y], mut bearing) = (difference.sides(), self.bearing);
         contract_atan2(&mut x, &mut y, &mut bearing);
         let contracted = IntervalBox::from([x, y]);
         // What was not contracted is not to be widened by rounding; the intersection sees to that.
-        (self.apex + contracted) & domain
+        let moved = if self.of_viewers { self.apex - contracted } else { self.apex + contracted };
+        moved & domain
     }
 }
 
@@ -86,7 +89,8 @@ pub struct SectorComplement {
 impl Contractor<2> for SectorComplement {
     #[inline]
     fn contract(&self, domain: IntervalBox<2>) -> IntervalBox<2> {
-        self.rest.contract(domain)
+        // Without an apex there is no sector that anything could be proved to be in.
+        if self.rest.apex.is_empty() { domain } else { self.rest.contract(domain) }
     }
 }
 
@@ -132,6 +136,23 @@ mod tests {
             let point = Vector2::new(x, y);
             prop_assert!(viewers.contract(IntervalBox::centred(&point, radius)).contains(&point));
         }
+
+        #[test]
+        fn no_point_is_proved_to_see_under_exactly_one_bearing(bearing in -3000_i32..3000, distance in 1e-6..1e3_f64, step in -2_i32..=2) {
+            // The tangent of a whole number but zero is transcendental: no point of the plane with `f64` coordinates sees the
+            // landmark in exactly that direction, so none may be removed as a member of the set.
+            prop_assume!(bearing != 0);
+            let (sine, cosine) = pxfm::f_sincos(f64::from(bearing));
+            let x = -distance * cosine;
+            let y = (0..step.abs()).fold(-distance * sine, |y, _| if step > 0 { y.next_up() } else { y.next_down() });
+            let landmark = IntervalBox::from([Interval::ZERO; 2]);
+            let bearing = over(f64::from(bearing), f64::from(bearing));
+            let viewer = IntervalBox::centred(&Vector2::new(x, y), 0.0);
+            let viewers = Sector::of_viewers(landmark, bearing).complement();
+            prop_assert_eq!(viewers.contract(viewer), viewer);
+            let seen = Sector::new(landmark, bearing).complement();
+            prop_assert_eq!(seen.contract(-viewer), -viewer);
+        }
     }
 
     #[test]
@@ -144,5 +165,6 @@ mod tests {
         assert!(Sector::new(apex, Interval::ENTIRE).complement().contract(domain).is_empty());
         assert!(Sector::new(apex, over(0.0, 6.5)).complement().contract(domain).is_empty());
         assert_eq!(Sector::new(apex, over(0.0, 0.1)).contract(apex), apex);
+        assert_eq!(Sector::new(IntervalBox::EMPTY, over(0.0, 0.1)).complement().contract(domain), domain);
     }
 }

@@ -125,6 +125,10 @@ pub struct WallRangeComplement<'a> {
 
 impl Contractor<2> for WallRangeComplement<'_> {
     fn contract(&self, domain: IntervalBox<2>) -> IntervalBox<2> {
+        if self.nearer.bearing.is_empty() {
+            // Without a bearing nothing was measured that anything could be proved from.
+            return domain;
+        }
         self.nearer.contract(domain) | self.not_nearer.contract(domain)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::scaled::Scaled;
 use crate::interval::Interval;
+use crate::set::{larger, smaller};
 use pxfm::{f_exp, f_log};
 
 impl Interval {
@@ -31,6 +32,8 @@ impl Interval {
             _ if from < SUBNORMAL_BELOW => {
                 subnormal_exponential(from).map_or(0.0, |value| value.rounded_down())
             }
+            // So that the exponentials of positive numbers are a part of those of numbers from zero on.
+            _ if from > 0.0 => larger(1.0, f_exp(from).next_down()),
             _ => f_exp(from).next_down(),
         };
         let upper = match to {
@@ -39,6 +42,7 @@ impl Interval {
             _ if to < SUBNORMAL_BELOW => {
                 subnormal_exponential(to).map_or(f64::from_bits(1), |value| value.rounded_up())
             }
+            _ if to < 0.0 => smaller(1.0, f_exp(to).next_up()),
             _ => f_exp(to).next_up(),
         };
         Interval::from_bounds(lower, upper)

@@ -70,11 +70,24 @@ fn exponentials() {
         2 => random.between(-1e4, -747.0),
         _ => Some(random.number()).filter(|x| !(-746.0..-708.0).contains(x)).unwrap_or(0.0),
     };
-    let reach = (0.0, f64::INFINITY);
-    check_million(1, near_the_ends, Interval::exp, core_math::exp, reach, only(0.0, 1.0));
+    let positive = |random: &mut SplitMix64| near_the_ends(random).abs();
+    check_million(1, positive, Interval::exp, core_math::exp, (1.0, f64::INFINITY), only(0.0, 1.0));
+    let negative = |random: &mut SplitMix64| {
+        Some(-near_the_ends(random).abs()).filter(|x| !(-746.0..-708.0).contains(x)).unwrap_or(-1.0)
+    };
+    check_million(2, negative, Interval::exp, core_math::exp, (0.0, 1.0), only(0.0, 1.0));
 }
 
 /// Where `pxfm` 0.1.30 gives 4.9e-309 for 6.8e-309, among others.
+#[test]
+fn exponentials_of_a_part_are_a_part() {
+    let nothing = Interval::ZERO.exp();
+    for tiny in [f64::from_bits(1), 1e-300, 1e-17, 1e-16, 2e-16] {
+        let [from, to] = [Interval::point(-tiny).unwrap().exp(), Interval::point(tiny).unwrap().exp()];
+        assert!(to.lower() >= nothing.lower() && from.upper() <= nothing.upper(), "{tiny:e}");
+    }
+}
+
 #[test]
 fn subnormal_exponentials() {
     let mut random = SplitMix64(12);

@@ -6,6 +6,8 @@ use super::tape::with_workspace;
 use crate::contractor::{Contracted, Contractor};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
+use crate::membership::Membership;
+use crate::paving::InclusionTest;
 use crate::separator::{Separation, Separator};
 
 impl<const N: usize, const M: usize> Expression<N, M> {
@@ -245,5 +247,24 @@ impl<const N: usize, const M: usize> Separator<N> for ForwardBackwardSeparator<N
             let outer = self.expression.backward(forward, &self.target);
             Separation { inner, outer }
         })
+    }
+}
+
+/// The inclusion test of the same set, for algorithms that bisect without contracting.
+///
+/// ```
+/// use shoal_interval::expression::Expression;
+/// use shoal_interval::paving::{Options, sivia};
+/// use shoal_interval::{Interval, IntervalBox};
+///
+/// // Where is the root of x at most 2? Not left of zero, where there is none.
+/// let below = Expression::new(|[x]| x.sqrt()).separator(Interval::new(0.0, 2.0)?);
+/// let paving = sivia(&below, IntervalBox::from([Interval::new(-1.0, 7.0)?]), &Options::new(0.1))?;
+/// assert!(paving.hull()[0].lower() > -0.1 && paving.hull()[0].upper() < 4.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<const N: usize, const M: usize> InclusionTest<N> for ForwardBackwardSeparator<N, M> {
+    fn test(&self, domain: &IntervalBox<N>) -> Membership {
+        self.expression.inclusion_test(domain, self.target)
     }
 }

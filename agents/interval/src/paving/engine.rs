@@ -6,6 +6,9 @@ use crate::interval_box::IntervalBox;
 /// Fewer boxes than this for each thread are not worth starting one.
 const WORTH_A_THREAD: usize = 32;
 
+/// More threads than this are not started, whatever is asked for: the result does not depend on their number.
+const MOST_THREADS: usize = 64;
+
 /// Paves `initial` with `cut`, which sorts the certain parts of a box into a paving, counts what it asks, and returns
 /// what is undecided.
 ///
@@ -48,27 +51,30 @@ fn run_level<const N: usize>(
     paving: &mut Paving<N>,
     next: &mut Vec<IntervalBox<N>>,
 ) {
-    let threads = options.threads().min(level.len() / WORTH_A_THREAD);
+    let threads = options.threads().min(level.len() / WORTH_A_THREAD).min(MOST_THREADS);
     if threads < 2 {
         run_piece(level, options, cut, paving, next);
         return;
     }
     std::thread::scope(|scope| {
         let pieces = level.chunks(level.len().div_ceil(threads)).map(|piece| {
-            scope.spawn(move || {
+            let work = move || {
                 let (mut found, mut next) = (Paving::empty(), Vec::new());
                 run_piece(piece, options, cut, &mut found, &mut next);
                 (found, next)
-            })
+            };
+            // Where the system has no thread to give, this one does the work when the piece's turn has come.
+            (piece, std::thread::Builder::new().spawn_scoped(scope, work))
         });
         let workers: Vec<_> = pieces.collect();
-        for worker in workers {
-            match worker.join() {
-                Ok((found, undecided)) => {
+        for (piece, worker) in workers {
+            match worker.map(|worker| worker.join()) {
+                Ok(Ok((found, undecided))) => {
                     paving.append(found);
                     next.extend(undecided);
                 }
-                Err(panic) => std::panic::resume_unwind(panic),
+                Ok(Err(panic)) => std::panic::resume_unwind(panic),
+                Err(_) => run_piece(piece, options, cut, paving, next),
             }
         }
     });

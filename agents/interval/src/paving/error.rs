@@ -18,6 +18,11 @@ pub enum PavingError {
         /// The upper bound of that side.
         upper: f64,
     },
+    /// The initial box holds no vector, so nothing can be said of those that are in it.
+    #[error(
+        "the initial box is empty: how many measurements are wrong shows only where there may be a position"
+    )]
+    EmptyInitial,
     /// A precision is zero, negative, infinite or NaN.
     #[error(
         "the precision along axis {axis} is {precision}, but boxes are bisected until they are narrower than it: \

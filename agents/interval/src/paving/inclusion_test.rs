@@ -48,15 +48,16 @@ impl<const N: usize, F: Fn(&IntervalBox<N>) -> Membership> InclusionTest<N> for 
 
 /// The inclusion test of the vectors that a function takes into a box: set inversion.
 ///
-/// `function` must be an inclusion function that is defined on all of the boxes it gets: its result holds the images
-/// of all vectors of the box. A box outside of a function's domain needs [`from_test_fn`], since an empty image does not
-/// say that the vectors are in the set.
+/// `function` must be an inclusion function of a *total* function: every vector has an image, and the result holds the
+/// images of all vectors of the box. A function with roots, logarithms or quotients is not total: the square roots of
+/// `[-1, 1]` are in `[0, 2]`, and -1 has none. For those, an [`Expression`](crate::expression::Expression) knows where it is
+/// defined, and its [`separator`](crate::expression::Expression::separator) is an inclusion test, too.
 ///
 /// ```
-/// use shoal_interval::paving::{InclusionTest, set_inversion};
+/// use shoal_interval::paving::{InclusionTest, total_set_inversion};
 /// use shoal_interval::{Interval, IntervalBox, Membership};
 ///
-/// let circle = set_inversion(
+/// let circle = total_set_inversion(
 ///     |x: &IntervalBox<2>| IntervalBox::from([x[0].sqr() + x[1].sqr()]),
 ///     IntervalBox::from([Interval::new(3.0, 4.0)?]),
 /// );
@@ -66,7 +67,7 @@ impl<const N: usize, F: Fn(&IntervalBox<N>) -> Membership> InclusionTest<N> for 
 /// ```
 ///
 /// Source: seed 001, table 2.2; seed 002, equations (3.35) and (3.37).
-pub fn set_inversion<const N: usize, const M: usize, F>(
+pub fn total_set_inversion<const N: usize, const M: usize, F>(
     function: F,
     target: IntervalBox<M>,
 ) -> SetInversion<M, F>
@@ -76,7 +77,7 @@ where
     SetInversion { function, target }
 }
 
-/// The inclusion test made by [`set_inversion`].
+/// The inclusion test made by [`total_set_inversion`].
 #[derive(Debug, Clone, Copy)]
 pub struct SetInversion<const M: usize, F> {
     function: F,

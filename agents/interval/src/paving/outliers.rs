@@ -26,7 +26,7 @@ pub struct Outliers<const N: usize> {
 /// the margin is for.
 ///
 /// # Errors
-/// [`PavingError`] when the initial box is unbounded or the precision is not a positive number.
+/// [`PavingError`] when the initial box is empty or unbounded, or the precision is not a positive number.
 ///
 /// Source: seed 001, table 2.5; Jaulin, Walter and Didrit, *Guaranteed robust nonlinear parameter bounding*, 1996.
 pub fn gomne<const N: usize, S: Separator<N> + Sync>(
@@ -35,6 +35,9 @@ pub fn gomne<const N: usize, S: Separator<N> + Sync>(
     initial: IntervalBox<N>,
     options: &Options<N>,
 ) -> Result<Outliers<N>, PavingError> {
+    if initial.is_empty() {
+        return Err(PavingError::EmptyInitial);
+    }
     let with = |outliers: usize| pave(&q_intersection(separators, outliers), initial, options);
     let all = separators.len();
     let mut at_least = None;

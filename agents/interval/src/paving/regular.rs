@@ -58,6 +58,10 @@ pub enum SubPavingError {
     },
 }
 
+/// How often a box of the tree may be bisected: walks through the tree are recursive, and this bounds their stack. What is
+/// undecided then stays so; it is 2^-128 of the root on each of four axes.
+const DEEPEST: usize = 512;
+
 impl<const N: usize> SubPaving<N> {
     /// No box at all of `root`.
     pub fn empty(root: IntervalBox<N>) -> SubPaving<N> {
@@ -106,6 +110,8 @@ impl<const N: usize> SubPaving<N> {
         root: IntervalBox<N>,
         options: &Options<N>,
     ) -> Result<SubPaving<N>, PavingError> {
+        // What only touches the root from outside becomes flat here, and its face is in the root.
+        let boxes: Vec<_> = boxes.iter().map(|part| *part & root).collect();
         let test = super::from_test_fn(|domain: &IntervalBox<N>| {
             // Sharing a face is not enough to be covered, unless the box has nothing but that face.
             let overlaps = |part: &IntervalBox<N>| {
@@ -138,18 +144,18 @@ impl<const N: usize> SubPaving<N> {
         if root.is_empty() {
             return Ok(SubPaving::empty(root));
         }
-        tree.grow(test, root, options, undecided, &mut budget);
+        tree.grow(test, root, options, undecided, (DEEPEST, &mut budget));
         Ok(tree)
     }
 
-    /// Adds the nodes of `domain` and returns the last. The depth is limited by how often a box can be bisected.
+    /// Adds the nodes of `domain` and returns the last, bisecting it `depth` times at most.
     fn grow(
         &mut self,
         test: &(impl InclusionTest<N> + ?Sized),
         domain: IntervalBox<N>,
         options: &Options<N>,
         undecided: Node,
-        budget: &mut usize,
+        (depth, budget): (usize, &mut usize),
     ) -> usize {
         if *budget == 0 {
             return self.leaf(undecided);
@@ -159,12 +165,13 @@ impl<const N: usize> SubPaving<N> {
             Membership::Inside => self.leaf(Node::In),
             Membership::Outside => self.leaf(Node::Out),
             Membership::Undecided => {
-                let halves = if options.is_fine(&domain, &domain) { None } else { domain.bisect() };
+                let is_leaf = depth == 0 || options.is_fine(&domain, &domain);
+                let halves = if is_leaf { None } else { domain.bisect() };
                 let Some((first, second)) = halves else {
                     return self.leaf(undecided);
                 };
-                let first = self.grow(test, first, options, undecided, budget);
-                let second = self.grow(test, second, options, undecided, budget);
+                let first = self.grow(test, first, options, undecided, (depth - 1, budget));
+                let second = self.grow(test, second, options, undecided, (depth - 1, budget));
                 self.branch(first, second)
             }
         }
@@ -221,7 +228,8 @@ impl<const N: usize> SubPaving<N> {
         self.root.contains(point) && self.any(self.top(), self.root, &at)
     }
 
-    /// Whether all of `part` is in the set.
+    /// Whether all of `part` is seen to be in the set. A part that is flat in the common face of two boxes may be refused
+    /// although they hold it together.
     pub fn contains_box(&self, part: &IntervalBox<N>) -> bool {
         part.is_subset_of(&self.root) && self.covers(self.top(), self.root, part)
     }

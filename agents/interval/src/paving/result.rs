@@ -52,7 +52,8 @@ impl<const N: usize> Paving<N> {
         }
     }
 
-    /// The boxes that are proved to be in the set.
+    /// The boxes that are proved to be in the set, but for faces that they share with other boxes: the border itself need not
+    /// belong to the set.
     pub fn inner(&self) -> &[IntervalBox<N>] {
         &self.inner
     }
@@ -62,7 +63,7 @@ impl<const N: usize> Paving<N> {
         &self.boundary
     }
 
-    /// The boxes that are proved to be outside of the set.
+    /// The boxes that are proved to be outside of the set, but for faces that they share with other boxes.
     pub fn outside(&self) -> &[IntervalBox<N>] {
         &self.outside
     }

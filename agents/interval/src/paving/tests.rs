@@ -181,8 +181,7 @@ fn outliers_are_counted_and_bounded() {
     assert_eq!((all.at_least, all.enough, all.tolerated), (3, 3, 3));
     let none: [Ring<2>; 0] = [];
     assert_eq!(gomne(&none, 0, square(1.0), &options).unwrap().enough, 0);
-    let empty = gomne(&rings, 0, IntervalBox::EMPTY, &options).unwrap();
-    assert_eq!((empty.at_least, empty.enough), (4, 4));
+    assert_eq!(gomne(&rings, 0, IntervalBox::EMPTY, &options), Err(PavingError::EmptyInitial));
 }
 
 #[test]
@@ -223,6 +222,10 @@ fn sub_pavings_are_sets() {
     assert_eq!(lower_half.node_count(), 3);
     assert!(lower_half.contains_box(&IntervalBox::from([Interval::ZERO, over(-4.0, 4.0)])));
     assert!(lower_half.contains(&Vector2::new(0.0, 0.0)));
+    // A box that only touches the root from outside has its face in it.
+    let beside = IntervalBox::from([over(-5.0, -4.0), over(-1.0, 1.0)]);
+    let covered = SubPaving::covering(&[beside], square(4.0), &options).unwrap();
+    assert!(covered.contains(&Vector2::new(-4.0, 0.5)) && !covered.contains(&Vector2::new(0.0, 0.0)));
     assert!(matches!(left.union(&SubPaving::full(square(2.0))), Err(SubPavingError::Roots { .. })));
     assert!(SubPaving::<2>::full(IntervalBox::EMPTY).is_empty());
 }
