@@ -2,7 +2,6 @@
 
 use crate::interval::Interval;
 use nalgebra::SVector;
-use std::fmt;
 use std::ops::{BitAnd, BitOr, Index, IndexMut};
 
 mod arithmetic;
@@ -108,6 +107,14 @@ impl<const N: usize> From<[Interval; N]> for IntervalBox<N> {
     }
 }
 
+/// A single interval as a box of one dimension.
+impl From<Interval> for IntervalBox<1> {
+    #[inline]
+    fn from(side: Interval) -> IntervalBox<1> {
+        IntervalBox { sides: [side] }
+    }
+}
+
 /// Panics, like any index, when there is no such axis.
 impl<const N: usize> Index<usize> for IntervalBox<N> {
     type Output = Interval;
@@ -150,22 +157,6 @@ impl<const N: usize> BitOr for IntervalBox<N> {
     #[inline]
     fn bitor(self, other: IntervalBox<N>) -> IntervalBox<N> {
         self.hull(&other)
-    }
-}
-
-/// Writes the sides joined by `x`, or `empty`; a precision is passed on to the sides.
-impl<const N: usize> fmt::Display for IntervalBox<N> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_empty() {
-            return formatter.write_str("empty");
-        }
-        for (axis, side) in self.sides.iter().enumerate() {
-            if axis > 0 {
-                formatter.write_str(" x ")?;
-            }
-            side.fmt(formatter)?;
-        }
-        Ok(())
     }
 }
 

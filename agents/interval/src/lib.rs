@@ -30,9 +30,14 @@ mod comparison;
 pub mod contractor;
 mod elementary;
 mod error;
+pub mod expression;
+pub mod figure;
+pub mod fuzzy;
 mod interval;
 mod interval_box;
+mod interval_matrix;
 mod membership;
+pub mod paving;
 mod reverse;
 mod rounding;
 pub mod separator;
@@ -41,8 +46,12 @@ mod serialization;
 mod set;
 #[cfg(test)]
 mod strategies;
+mod text;
 
+pub use comparison::Overlap;
 pub use error::IntervalError;
 pub use interval::Interval;
 pub use interval_box::{Difference, IntervalBox};
+pub use interval_matrix::IntervalMatrix;
 pub use membership::Membership;
+pub use text::ParseIntervalError;
