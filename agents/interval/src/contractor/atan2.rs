@@ -94,8 +94,8 @@ impl Contractor<3> for Atan2Seed {
         }
         let [mut x, mut y, mut angle] = domain.sides();
         let slope = angle.tan() & Interval::from_bounds(0.0, 1.0);
-        let possible_slope = slope.with_product_in(x, y);
-        [x, y] = [x.with_product_in(slope, y), y & (x * slope)];
+        let possible_slope = x.mul_rev(y, slope);
+        [x, y] = [slope.mul_rev(y, x), y & (x * slope)];
         if possible_slope.is_empty() {
             return IntervalBox::EMPTY;
         }

@@ -42,8 +42,8 @@ pub fn contract_range<const N: usize>(
 
     // What the range has not lost cannot be missing from what it was computed of.
     if !empty && range != travelled {
-        let possible_delay = delay.with_product_in(*sound_speed, range);
-        *sound_speed = sound_speed.with_product_in(delay, range);
+        let possible_delay = sound_speed.mul_rev(range, delay);
+        *sound_speed = delay.mul_rev(range, *sound_speed);
         if possible_delay != delay {
             let possible_reception = *reception & (*emission + possible_delay);
             *emission = *emission & (*reception - possible_delay);

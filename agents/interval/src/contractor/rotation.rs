@@ -71,8 +71,8 @@ pub(super) fn contract_linear(
 ) {
     let terms = [coefficients[0] * vector[0], coefficients[1] * vector[1]];
     *value = *value & (terms[0] + terms[1]);
-    vector[0] = vector[0].with_product_in(coefficients[0], *value - terms[1]);
-    vector[1] = vector[1].with_product_in(coefficients[1], *value - terms[0]);
+    vector[0] = coefficients[0].mul_rev(*value - terms[1], vector[0]);
+    vector[1] = coefficients[1].mul_rev(*value - terms[0], vector[1]);
 }
 
 /// An interval that holds the directions of all vectors of a box. Of two that start at different angles, the narrower.
