@@ -30,6 +30,7 @@ mod derivative;
 mod enclosure;
 mod error;
 mod integral;
+pub mod integration;
 mod inversion;
 mod online;
 mod query;
