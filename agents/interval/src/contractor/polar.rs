@@ -36,7 +36,7 @@ use crate::set::{larger, smaller};
 /// let mut bearing = Interval::new(0.5, 3.0)?;
 /// assert_eq!(contract_polar(&mut x, &mut y, &mut range, &mut bearing), Contracted::Narrowed);
 /// assert_eq!(format!("{x:.2} {y:.2}"), "[3.00, 4.39] [1.63, 4.00]");
-/// assert_eq!(format!("{range:.2} {bearing:.3}"), "[3.42, 5.00] [0.500, 0.927]");
+/// assert_eq!(format!("{range:.2} {bearing:.3}"), "[3.41, 5.00] [0.500, 0.928]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

@@ -118,6 +118,34 @@ impl<const N: usize, const M: usize> Expression<N, M> {
         if self.tape.backward(values) { self.variables_of(values) } else { IntervalBox::EMPTY }
     }
 
+    /// What is left of a box when the outputs are in `target`.
+    #[inline]
+    fn outer_part(&self, domain: IntervalBox<N>, target: &IntervalBox<M>) -> IntervalBox<N> {
+        if domain.is_empty() {
+            return IntervalBox::EMPTY;
+        }
+        let tape = &self.tape;
+        with_workspace(tape.slots(), |values| {
+            tape.forward(&domain.sides(), values);
+            self.backward(values, target)
+        })
+    }
+
+    /// What is left of a box when some output is outside of `target`: all of it where the function may be undefined.
+    fn inner_part(&self, domain: IntervalBox<N>, target: &IntervalBox<M>) -> IntervalBox<N> {
+        if domain.is_empty() {
+            return IntervalBox::EMPTY;
+        }
+        let tape = &self.tape;
+        with_workspace(2 * tape.slots(), |workspace| {
+            let (forward, values) = workspace.split_at_mut(tape.slots());
+            if tape.forward_with_regularity(&domain.sides(), forward) == Regularity::Partial {
+                return domain;
+            }
+            self.backward_beyond(forward, values, target)
+        })
+    }
+
     /// The hull of what is left when one output, after the forward sweep in `forward`, is beyond one bound of `target`.
     fn backward_beyond(
         &self,
@@ -168,14 +196,7 @@ pub struct ForwardBackward<const N: usize, const M: usize> {
 impl<const N: usize, const M: usize> Contractor<N> for ForwardBackward<N, M> {
     #[inline]
     fn contract(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
-        if domain.is_empty() {
-            return IntervalBox::EMPTY;
-        }
-        let tape = &self.expression.tape;
-        with_workspace(tape.slots(), |values| {
-            tape.forward(&domain.sides(), values);
-            self.expression.backward(values, &self.target)
-        })
+        self.expression.outer_part(domain, &self.target)
     }
 }
 
@@ -188,17 +209,7 @@ pub struct InnerForwardBackward<const N: usize, const M: usize> {
 
 impl<const N: usize, const M: usize> Contractor<N> for InnerForwardBackward<N, M> {
     fn contract(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
-        if domain.is_empty() {
-            return IntervalBox::EMPTY;
-        }
-        let tape = &self.expression.tape;
-        with_workspace(2 * tape.slots(), |workspace| {
-            let (forward, values) = workspace.split_at_mut(tape.slots());
-            if tape.forward_with_regularity(&domain.sides(), forward) == Regularity::Partial {
-                return domain;
-            }
-            self.expression.backward_beyond(forward, values, &self.target)
-        })
+        self.expression.inner_part(domain, &self.target)
     }
 }
 
@@ -210,6 +221,14 @@ pub struct ForwardBackwardSeparator<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> Separator<N> for ForwardBackwardSeparator<N, M> {
+    fn inner(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
+        self.expression.inner_part(domain, &self.target)
+    }
+
+    fn outer(&self, domain: IntervalBox<N>) -> IntervalBox<N> {
+        self.expression.outer_part(domain, &self.target)
+    }
+
     fn separate(&self, domain: IntervalBox<N>) -> Separation<N> {
         if domain.is_empty() {
             return Separation { inner: IntervalBox::EMPTY, outer: IntervalBox::EMPTY };
