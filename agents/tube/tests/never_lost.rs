@@ -168,6 +168,20 @@ proptest! {
             (Ok(own.abs()), a.abs()),
             (Ok(own.sin()), a.sin()),
             (Ok(own.cos()), a.cos()),
+            (own.atan2(&others), a.atan2(b)),
+            (own.abs().powf(&others.cos()), a.abs().powf(b.cos())),
+            (Ok(own.atan()), a.atan()),
+            (Ok(own.sin().asin()), a.sin().asin()),
+            (Ok(own.cos().acos()), a.cos().acos()),
+            (Ok((&own * 0.1).exp()), (a * 0.1).exp()),
+            (Ok((&own.abs() + 1.0).ln()), (a.abs() + 1.0).ln()),
+            (Ok(own.tan()), a.tan()),
+            (Ok(own.abs().sqrt()), a.abs().sqrt()),
+            (Ok(own.recip()), a.recip()),
+            (Ok(own.powi(-3)), a.powi(-3)),
+            (Ok(own.floor()), a.floor()),
+            (Ok(own.sign()), a.sign()),
+            (Ok(own.wrap_angle()), a.wrap_angle()),
             (Ok(-&own), -a),
             (Ok(2.0 / &(&own.sqr() + 1.0)), 2.0 / (a.sqr() + 1.0)),
         ];
@@ -176,7 +190,10 @@ proptest! {
         }
         let both = Tube::from_components([&own, &others]).unwrap();
         prop_assert_eq!(both.components(), [own.clone(), others.clone()]);
-        prop_assert!(!(both.at(time).unwrap() & IntervalBox::from([a, b])).is_empty());
+        let vector = IntervalBox::from([a, b]);
+        prop_assert!(!(both.at(time).unwrap() & vector).is_empty());
+        prop_assert!(holds(both.norm().at(time).unwrap(), vector.norm()));
+        prop_assert!(holds(both.dot(&both).unwrap().at(time).unwrap(), vector.dot(&vector)));
         prop_assert_eq!(own.intersection(&own.inflate(0.1)).unwrap(), own.clone());
         prop_assert_eq!(own.is_subset_of(&own.hull(&others).unwrap()), Ok(true));
         prop_assert!(own.volume() <= own.hull(&others).unwrap().volume());
