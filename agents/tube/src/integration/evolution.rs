@@ -1,5 +1,6 @@
 //! The state equation.
 
+use shoal_interval::expression::Expression;
 use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 
 /// A state equation `x' = f(t, x)`, or the inclusion `x'` in `f(t, x)` when inputs or noise are only known to lie in sets,
@@ -128,5 +129,34 @@ where
     #[inline]
     fn jacobian(&self, times_s: Interval, states: &IntervalBox<N>) -> Option<IntervalMatrix<N, N>> {
         Some((self.jacobian)(times_s, states))
+    }
+}
+
+/// An expression of the state alone is an autonomous evolution: velocity, Jacobian and acceleration follow from it.
+///
+/// ```
+/// use shoal_interval::expression::Expression;
+/// use shoal_interval::{Interval, IntervalBox};
+/// use shoal_tube::integration::Steps;
+/// use shoal_tube::{TimeDomain, Tube};
+///
+/// // Van der Pol's oscillator.
+/// let oscillator = Expression::system(|[x, v]| [v, (1.0 - x.sqr()) * v - x]);
+/// let start = IntervalBox::from([Interval::new(1.99, 2.01)?, Interval::ZERO]);
+/// let states = Tube::solution(TimeDomain::uniform(0.0, 0.01, 700)?, &oscillator, start, Steps::default())?;
+/// assert!(states.last_gate().width() < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<const N: usize> Evolution<N> for Expression<N, N> {
+    fn velocity(&self, _times_s: Interval, states: &IntervalBox<N>) -> IntervalBox<N> {
+        self.natural(states)
+    }
+
+    fn jacobian(&self, _times_s: Interval, states: &IntervalBox<N>) -> Option<IntervalMatrix<N, N>> {
+        Some(Expression::jacobian(self, states))
+    }
+
+    fn acceleration(&self, _times_s: Interval, states: &IntervalBox<N>) -> Option<IntervalBox<N>> {
+        Some(Expression::jacobian(self, states) * self.natural(states))
     }
 }

@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn eight_eighths_of_a_turn_wrap_nothing() {
         let states = IntervalBox::from([Interval::new(1.0, 2.0).unwrap(), Interval::new(-0.1, 0.1).unwrap()]);
-        let eighth = IntervalMatrix::rotation_2d(exactly(std::f64::consts::FRAC_PI_4));
+        let eighth = IntervalMatrix::rotation_2d(exactly(std::f64::consts::FRAC_PI_4).inflate(1e-16));
         let mut turned = Parallelepiped::upright(&states);
         let mut wrapped = states;
         for _ in 0..8 {
@@ -95,7 +95,7 @@ mod tests {
         assert!(turned.hull().contains(&Vector2::new(2.0, 0.1)));
         assert!(states.is_subset_of(&turned.hull()));
         assert!(turned.hull().width() < 1.0 + 1e-12);
-        assert!(wrapped.width() > 10.0);
+        assert!(wrapped.width() > 9.0);
     }
 
     #[test]
