@@ -56,6 +56,7 @@ mod contraction;
 mod derivative;
 mod enclosure;
 mod error;
+pub mod estimation;
 mod integral;
 pub mod integration;
 mod inversion;
