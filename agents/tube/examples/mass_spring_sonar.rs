@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 use shoal_interval::contractor::Contracted;
 use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 use shoal_tube::estimation::{EstimationError, Search, Strangled, System, from_contraction};
-use shoal_tube::integration::{Autonomous, Evolution};
+use shoal_tube::integration::Evolution;
 use shoal_tube::{Place, TimeDomain, Tube, TubeError};
 use std::time::Instant;
 
@@ -31,6 +31,9 @@ const START: Vector2<f64> = Vector2::new(10.0, 0.0);
 
 /// Where the mass is looked for at any time: between the walls, and slower than sound.
 const ANYWHERE: f64 = 100.0;
+
+/// No spring is stretched so far that the mass becomes faster than this.
+const FASTEST_M_S: f64 = 25.0;
 
 type States = Tube<IntervalBox<2>>;
 
@@ -93,19 +96,42 @@ fn runge_kutta(state: &Vector2<f64>, step_s: f64) -> Vector2<f64> {
 }
 
 /// Seed 001, equation (4.35).
-fn spring() -> impl Evolution<2> {
-    Autonomous::new(
-        |state: &IntervalBox<2>| {
-            let [x, v] = state.sides();
-            // Each term falls with its variable, so nothing is lost to dependency.
-            IntervalBox::from([v, (x.powi(3) * STIFFNESS - x * ELASTICITY - v * DAMPING) / MASS_KG])
-        },
-        |state: &IntervalBox<2>| {
-            let by_position = (state[0].sqr() * (3.0 * STIFFNESS) - ELASTICITY) / MASS_KG;
-            let by_speed = Interval::spanning(DAMPING, DAMPING) / -MASS_KG;
-            IntervalMatrix::from([[Interval::ZERO, Interval::ONE], [by_position, by_speed]])
-        },
-    )
+#[derive(Debug, Clone, Copy)]
+struct Spring;
+
+impl Spring {
+    /// The derivative of the acceleration by the position.
+    fn slope(position_m: Interval) -> Interval {
+        (position_m.sqr() * (3.0 * STIFFNESS) - ELASTICITY) / MASS_KG
+    }
+
+    fn acceleration(state: &IntervalBox<2>) -> Interval {
+        let [x, v] = state.sides();
+        // Each term falls with its variable, so nothing is lost to dependency.
+        (x.powi(3) * STIFFNESS - x * ELASTICITY - v * DAMPING) / MASS_KG
+    }
+}
+
+impl Evolution<2> for Spring {
+    fn velocity(&self, _times_s: Interval, state: &IntervalBox<2>) -> IntervalBox<2> {
+        IntervalBox::from([state[1], Spring::acceleration(state)])
+    }
+
+    fn jacobian(&self, _times_s: Interval, state: &IntervalBox<2>) -> Option<IntervalMatrix<2, 2>> {
+        let by_speed = Interval::spanning(DAMPING, DAMPING) / -MASS_KG;
+        Some(IntervalMatrix::from([[Interval::ZERO, Interval::ONE], [Spring::slope(state[0]), by_speed]]))
+    }
+
+    fn acceleration(&self, _times_s: Interval, state: &IntervalBox<2>) -> Option<IntervalBox<2>> {
+        let acceleration = Spring::acceleration(state);
+        let jerk = Spring::slope(state[0]) * state[1] - acceleration * (DAMPING / MASS_KG);
+        Some(IntervalBox::from([acceleration, jerk]))
+    }
+
+    fn jacobian_rate(&self, _times_s: Interval, state: &IntervalBox<2>) -> Option<IntervalMatrix<2, 2>> {
+        let rate = state[0] * state[1] * (6.0 * STIFFNESS / MASS_KG);
+        Some(IntervalMatrix::from([[Interval::ZERO; 2], [rate, Interval::ZERO]]))
+    }
 }
 
 /// The pings that came back before `duration_s`: one each second, every seventh lost, with errors up to the bound.
@@ -152,8 +178,8 @@ fn gate_at(states: &States, time_s: f64) -> Result<usize, TubeError> {
 }
 
 /// The spring and its pings.
-fn system(pings: &[Ping]) -> System<'static, 2, impl Evolution<2> + use<>> {
-    let mut system = System::new(spring());
+fn system(pings: &[Ping]) -> System<'static, 2, Spring> {
+    let mut system = System::new(Spring);
     for &ping in pings {
         let times_s = Interval::spanning(ping.emission_s, ping.reception_s);
         system = system
@@ -171,12 +197,15 @@ fn unknown(pings: &[Ping], duration_s: f64) -> Result<States, TubeError> {
 }
 
 fn anywhere() -> IntervalBox<2> {
-    IntervalBox::from([Interval::spanning(-ANYWHERE, ANYWHERE); 2])
+    IntervalBox::from([
+        Interval::spanning(-ANYWHERE, ANYWHERE),
+        Interval::spanning(-FASTEST_M_S, FASTEST_M_S),
+    ])
 }
 
 /// STRANGLE2 at `k0` seconds.
 fn strangle(
-    system: &System<'static, 2, impl Evolution<2>>,
+    system: &System<'static, 2, Spring>,
     states: &mut States,
     k0_s: f64,
 ) -> Result<Strangled<2>, EstimationError> {
@@ -185,7 +214,7 @@ fn strangle(
     if k0_s == 0.0 {
         initial[0] = Interval::spanning(0.0, ANYWHERE);
     }
-    system.strangle(states, gate, initial, &Search::new([0.5, 1.0]))
+    system.strangle(states, gate, initial, &Search::new([0.25, 0.5]))
 }
 
 /// Whether the truth is in the tube at every millisecond.

@@ -39,7 +39,7 @@ impl<const N: usize, E: Evolution<N>> System<'_, N, E> {
         let none = vec![false; self.observations.len()];
         search_boxes(tube, gate, initial, search, |part, set| {
             let motion = self.sweep(&schedule, &none);
-            if self.contract_scheduled(part, gate, set, &motion)? == Contracted::Empty {
+            if self.contract_scheduled(part, gate, set, &motion, 1)? == Contracted::Empty {
                 return Ok(false);
             }
             let mut boxes = Vec::with_capacity(self.observations.len());
@@ -52,11 +52,11 @@ impl<const N: usize, E: Evolution<N>> System<'_, N, E> {
             }
             let agreed = part.gates[gate] & relaxed_intersection_of_boxes(&boxes, outliers);
             if wrong < outliers {
-                return Ok(self.contract_scheduled(part, gate, &agreed, &motion)? != Contracted::Empty);
+                return Ok(self.contract_scheduled(part, gate, &agreed, &motion, 1)? != Contracted::Empty);
             }
             let right: Vec<bool> = boxes.iter().map(|set| !set.is_empty()).collect();
             let all_others = self.sweep(&schedule, &right);
-            Ok(self.contract_scheduled(part, gate, &agreed, &all_others)? != Contracted::Empty)
+            Ok(self.contract_scheduled(part, gate, &agreed, &all_others, 2)? != Contracted::Empty)
         })
     }
 

@@ -1,10 +1,10 @@
 //! The algorithm STRANGLE: the box at one gate is cut in two again and again.
 
 use super::error::EstimationError;
-use super::sweep::Schedule;
+use super::sweep::{Route, Schedule};
 use super::system::System;
 use crate::enclosure::Enclosure;
-use crate::integration::Evolution;
+use crate::integration::{Evolution, Way};
 use crate::tube::Tube;
 use shoal_interval::IntervalBox;
 use shoal_interval::contractor::Contracted;
@@ -113,8 +113,14 @@ impl<const N: usize, E: Evolution<N>> System<'_, N, E> {
         let schedule = Schedule::new(tube.domain(), &self.observations)?;
         let counted = vec![true; self.observations.len()];
         let sweep = self.sweep(&schedule, &counted);
+        // What can be learnt without a box is learnt once, and no part goes through all of the tube for it.
+        let all = Route { from: 0, at_least_to: tube.slice_count(), way: Way::Forward };
+        let back = Route { from: tube.slice_count(), at_least_to: 0, way: Way::Backward };
+        if sweep.run(tube, all)?.is_none() || sweep.run(tube, back)?.is_none() {
+            return Ok(all_rejected(tube, gate, initial));
+        }
         search_boxes(tube, gate, initial, search, |part, set| {
-            Ok(self.contract_scheduled(part, gate, set, &sweep)? != Contracted::Empty)
+            Ok(self.contract_scheduled(part, gate, set, &sweep, 1)? != Contracted::Empty)
         })
     }
 }
@@ -159,6 +165,17 @@ pub(super) fn search_boxes<const N: usize>(
     }
     union.narrow(tube);
     Ok(strangled)
+}
+
+/// The answer for a tube that is empty without any box.
+fn all_rejected<const N: usize>(
+    tube: &mut Tube<IntervalBox<N>>,
+    gate: usize,
+    initial: IntervalBox<N>,
+) -> Strangled<N> {
+    tube.narrow_gate(gate, IntervalBox::EMPTY);
+    tube.refresh(0..tube.slice_count());
+    Strangled { rejected: vec![initial], contractions: 1, ..Strangled::new() }
 }
 
 pub(super) fn check_box<const N: usize>(set: &IntervalBox<N>) -> Result<(), EstimationError> {

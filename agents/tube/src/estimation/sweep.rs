@@ -12,6 +12,9 @@ use shoal_interval::contractor::Contracted;
 use std::iter::Peekable;
 use std::ops::Range;
 
+/// A sweep goes on while it makes some side of the gates narrower than this share.
+const WORTH_GOING_ON: f64 = 0.98;
+
 /// The gates of an observation of no time: the first is after the last.
 const NEVER: (usize, usize) = (usize::MAX, 0);
 
@@ -117,6 +120,8 @@ pub(super) struct Route {
 pub(super) struct Swept {
     /// The gate that was reached.
     pub(super) gate: usize,
+    /// The last gate that became narrower: there is nothing to carry back from beyond.
+    pub(super) last_news: usize,
     pub(super) contracted: Contracted,
 }
 
@@ -143,13 +148,14 @@ impl<const N: usize, E: Evolution<N> + ?Sized> Sweep<'_, N, E> {
         let Route { from, at_least_to, way } = route;
         let mut carrier = Carrier::new(self.evolution, self.steps, way);
         let mut stale = Stale::default();
-        let mut swept = Swept { gate: from, contracted: Contracted::Unchanged };
+        let mut swept = Swept { gate: from, last_news: from, contracted: Contracted::Unchanged };
         // Whatever was narrowed before the sweep is at its start.
         let mut until =
             way.later(self.schedule.told_from(from, way), way.later(at_least_to, way.beyond(from)));
         let mut coming = self.schedule.coming(from, way);
         loop {
             let mut contracted = Contracted::Unchanged;
+            let mut before = tube.gates[swept.gate];
             while let Some(observation) =
                 coming.next_if(|&observation| self.schedule.done_at(observation, way) == swept.gate)
             {
@@ -158,31 +164,42 @@ impl<const N: usize, E: Evolution<N> + ?Sized> Sweep<'_, N, E> {
                     contracted = together(contracted, self.observations[observation].contract(tube)?);
                 }
             }
-            if contracted == Contracted::Unchanged && swept.gate == way.later(until, swept.gate) {
+            let mut news = is_narrower(&tube.gates[swept.gate], &before);
+            if !news && swept.gate == way.later(until, swept.gate) {
+                swept.contracted = together(swept.contracted, contracted);
                 break;
             }
             let Some((slice, gate)) = way.next(swept.gate, self.first_gate..tube.slice_count()) else {
+                swept.contracted = together(swept.contracted, contracted);
                 break;
             };
             if contracted != Contracted::Empty {
+                before = tube.gates[gate];
                 let of_slice = carrier.pass(tube, slice).contracted;
                 if of_slice == Contracted::Narrowed {
                     stale.add(slice);
                 }
+                news |= is_narrower(&tube.gates[gate], &before);
                 contracted = together(contracted, of_slice);
             }
-            match contracted {
-                Contracted::Empty => return Ok(None),
-                Contracted::Narrowed => {
-                    until = way.later(until, way.later(self.schedule.told_from(gate, way), way.beyond(gate)));
-                }
-                Contracted::Unchanged => {}
+            if contracted == Contracted::Empty {
+                return Ok(None);
             }
-            swept = Swept { gate, contracted: together(swept.contracted, contracted) };
+            if news {
+                swept.last_news = gate;
+                until = way.later(until, way.later(self.schedule.told_from(gate, way), way.beyond(gate)));
+            }
+            swept.gate = gate;
+            swept.contracted = together(swept.contracted, contracted);
         }
         stale.refresh(tube);
         Ok(if tube.is_empty() { None } else { Some(swept) })
     }
+}
+
+/// Whether a gate has become so much narrower that a sweep goes on for it.
+fn is_narrower<const N: usize>(now: &IntervalBox<N>, before: &IntervalBox<N>) -> bool {
+    now.iter().zip(before).any(|(now, before)| now.width() < WORTH_GOING_ON * before.width())
 }
 
 /// Slices that were narrowed since the summaries were brought up to date.

@@ -88,7 +88,7 @@ impl<'a, const N: usize, E: Evolution<N>> System<'a, N, E> {
         tube.check_gate(gate)?;
         let schedule = Schedule::new(tube.domain(), &self.observations)?;
         let counted = vec![true; self.observations.len()];
-        self.contract_scheduled(tube, gate, states, &self.sweep(&schedule, &counted))
+        self.contract_scheduled(tube, gate, states, &self.sweep(&schedule, &counted), MOST_ROUNDS)
     }
 
     pub(super) fn sweep<'s>(&'s self, schedule: &'s Schedule, counted: &'s [bool]) -> Sweep<'s, N, E> {
@@ -102,13 +102,14 @@ impl<'a, const N: usize, E: Evolution<N>> System<'a, N, E> {
         }
     }
 
-    /// CONTRACT at a gate that the caller knows to exist.
+    /// CONTRACT at a gate that the caller knows to exist, in at most so many rounds.
     pub(super) fn contract_scheduled(
         &self,
         tube: &mut Tube<IntervalBox<N>>,
         gate: usize,
         states: &IntervalBox<N>,
         sweep: &Sweep<'_, N, E>,
+        rounds: usize,
     ) -> Result<Contracted, EstimationError> {
         if tube.is_empty() {
             return Ok(Contracted::Empty);
@@ -119,15 +120,15 @@ impl<'a, const N: usize, E: Evolution<N>> System<'a, N, E> {
             return Ok(Contracted::Empty);
         }
         let (mut first, mut last) = (gate, gate);
-        for round in 0..MOST_ROUNDS {
+        for round in 0..rounds {
             let forward = Route { from: first, at_least_to: last, way: Way::Forward };
             let Some(swept) = sweep.run(tube, forward)? else { return Ok(emptied(tube)) };
             contracted = together(contracted, swept.contracted);
-            last = swept.gate;
-            let backward = Route { from: last, at_least_to: first, way: Way::Backward };
+            last = swept.last_news;
+            let backward = Route { from: last, at_least_to: Way::Backward.beyond(first), way: Way::Backward };
             let Some(swept) = sweep.run(tube, backward)? else { return Ok(emptied(tube)) };
             contracted = together(contracted, swept.contracted);
-            first = swept.gate;
+            first = swept.last_news;
 
             let narrowed = tube.gates[gate];
             let shrunk =

@@ -89,7 +89,7 @@ pub(super) fn step<const N: usize, E: Evolution<N> + ?Sized>(
 
     let turned = || {
         let start = start.turned.or_else(|| hull.is_bounded().then(|| Parallelepiped::upright(&hull)))?;
-        let flow = Flow::new(evolution, span, start.centre(), &over)?;
+        let flow = Flow::new(evolution, span, start.centre(), &hull, &over)?;
         Some((flow, start.image(&flow.centre_end, &flow.slopes)?, start))
     };
     if end.is_empty() {
@@ -113,11 +113,13 @@ struct Flow<const N: usize> {
 }
 
 impl<const N: usize> Flow<N> {
-    /// `None` if there is no bounded enclosure. `over` holds the solutions whose distance from the centre matters.
+    /// `None` if there is no bounded enclosure. `hull` holds the states at the start whose distance from the centre matters,
+    /// `over` the solutions from them.
     fn new<E: Evolution<N> + ?Sized>(
         evolution: &E,
         span: Span,
         centre: &IntervalBox<N>,
+        hull: &IntervalBox<N>,
         over: &IntervalBox<N>,
     ) -> Option<Flow<N>> {
         let Span { times_s, length_s } = span;
@@ -129,25 +131,53 @@ impl<const N: usize> Flow<N> {
         }
         let half_square = length_s.sqr() * 0.5;
 
-        let jacobian = evolution.jacobian(times_s, &(*over | centre_over))?;
+        let both = *over | centre_over;
+        let jacobian = evolution.jacobian(times_s, &both)?;
         if jacobian.is_empty() || !jacobian.is_bounded() {
             return None;
         }
-        // The distance obeys m' = J m for some J in the Jacobian at each time, so the norm of m - I grows to at most
-        // exp(h |J|) - 1. Once integrated by parts this is m = I + h J + h^2 / 2 J J m.
+        // The distance obeys m' = K m, K a mean of Jacobians between the two solutions, so the norm of m - I grows to at
+        // most exp(h |K|) - 1. Integrated by parts, m = I + int K + h^2 / 2 K K m.
         let growth = ((row_sum_norm(&jacobian) * length_s.abs()).exp() - Interval::ONE).upper();
         let around = Interval::spanning(-growth, growth);
         let roughly = IntervalMatrix::identity() + IntervalMatrix::from_fn(|_, _| around);
-        let slopes = IntervalMatrix::identity()
-            + jacobian * length_s
-            + (jacobian * (jacobian * roughly)) * half_square;
-
-        let mut centre_end = *centre + evolution.velocity(times_s, &centre_over) * length_s;
-        if let Some(acceleration) = evolution.acceleration(times_s, &centre_over) {
-            let start_velocity = evolution.velocity(span.start_s(), centre);
-            centre_end = centre_end & (*centre + start_velocity * length_s + acceleration * half_square);
+        let mut integral = jacobian * length_s;
+        if let Some(rate) = evolution.jacobian_rate(times_s, &both) {
+            let at_start = evolution.jacobian(span.start_s(), &(*hull | *centre))?;
+            integral = integral & (at_start * length_s + rate * half_square);
         }
+        let slopes = IntervalMatrix::identity() + integral + (jacobian * (jacobian * roughly)) * half_square;
+
+        let centre_end = centre_end(evolution, span, centre, &centre_over);
         let bounded = !centre_end.is_empty() && centre_end.is_bounded() && slopes.is_bounded();
         bounded.then_some(Flow { centre_end, slopes })
+    }
+}
+
+/// Where the solution from the centre ends, which is in `over` on the way: Taylor's series, as long as its terms are known.
+fn centre_end<const N: usize, E: Evolution<N> + ?Sized>(
+    evolution: &E,
+    span: Span,
+    centre: &IntervalBox<N>,
+    over: &IntervalBox<N>,
+) -> IntervalBox<N> {
+    let Span { times_s, length_s } = span;
+    let velocity = evolution.velocity(times_s, over);
+    let Some(acceleration) = evolution.acceleration(times_s, over) else {
+        return *centre + velocity * length_s;
+    };
+    let half_square = length_s.sqr() * 0.5;
+    let start_s = span.start_s();
+    let straight = *centre + evolution.velocity(start_s, centre) * length_s;
+    let jerk = || {
+        let rate = evolution.jacobian_rate(times_s, over)?;
+        let jacobian = evolution.jacobian(times_s, over)?;
+        let at_start = evolution.acceleration(start_s, centre)?;
+        // x'' = J f, if nothing else changes.
+        Some((at_start, rate * velocity + jacobian * acceleration))
+    };
+    match jerk() {
+        Some((at_start, jerk)) => straight + at_start * half_square + jerk * (length_s.powi(3) / 6.0),
+        None => straight + acceleration * half_square,
     }
 }
