@@ -10,6 +10,9 @@ use shoal_interval::IntervalBox;
 use shoal_interval::contractor::Contracted;
 use std::rc::Rc;
 
+/// The whole tube is contracted at most this often before it is cut.
+const MOST_ROUNDS_BEFORE: usize = 20;
+
 /// How finely to cut, and for how long.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search<const N: usize> {
@@ -32,7 +35,8 @@ impl<const N: usize> Search<N> {
     }
 
     pub(super) fn check(&self) -> Result<(), EstimationError> {
-        match (0..N).find(|&axis| !(self.precision[axis] > 0.0)) {
+        let positive = |axis: usize| self.precision[axis] > 0.0;
+        match (0..N).find(|&axis| !positive(axis)) {
             Some(axis) => Err(EstimationError::NotAPrecision { axis, precision: self.precision[axis] }),
             None => Ok(()),
         }
@@ -116,8 +120,13 @@ impl<const N: usize, E: Evolution<N>> System<'_, N, E> {
         // What can be learnt without a box is learnt once, and no part goes through all of the tube for it.
         let all = Route { from: 0, at_least_to: tube.slice_count(), way: Way::Forward };
         let back = Route { from: tube.slice_count(), at_least_to: 0, way: Way::Backward };
-        if sweep.run(tube, all)?.is_none() || sweep.run(tube, back)?.is_none() {
-            return Ok(all_rejected(tube, gate, initial));
+        for _ in 0..MOST_ROUNDS_BEFORE {
+            let (Some(forward), Some(backward)) = (sweep.run(tube, all)?, sweep.run(tube, back)?) else {
+                return Ok(all_rejected(tube, gate, initial));
+            };
+            if forward.last_news == all.from && backward.last_news == back.from {
+                break;
+            }
         }
         search_boxes(tube, gate, initial, search, |part, set| {
             Ok(self.contract_scheduled(part, gate, set, &sweep, 1)? != Contracted::Empty)

@@ -30,8 +30,8 @@ pub(super) fn inverse<const N: usize>(axes: &IntervalMatrix<N, N>) -> Option<Int
     let transpose = axes.transpose();
     let error = IntervalMatrix::identity() - transpose * *axes;
     let norm = row_sum_norm(&error);
-    // NaN is no proof.
-    if !(norm.upper() < 0.5) {
+    // The empty and the unbounded matrix are no proof either.
+    if norm.is_empty() || norm.upper() >= 0.5 {
         return None;
     }
     let excess = (norm / (Interval::ONE - norm)).upper();
