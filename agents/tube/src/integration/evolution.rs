@@ -149,8 +149,8 @@ where
 ///
 /// // Van der Pol's oscillator.
 /// let oscillator = Expression::system(|[x, v]| [v, (1.0 - x.sqr()) * v - x]);
-/// let start = IntervalBox::from([Interval::new(1.99, 2.01)?, Interval::ZERO]);
-/// let states = Tube::solution(TimeDomain::uniform(0.0, 0.01, 700)?, &oscillator, start, Steps::default())?;
+/// let start = IntervalBox::from([Interval::new(1.999, 2.001)?, Interval::ZERO]);
+/// let states = Tube::solution(TimeDomain::uniform(0.0, 0.01, 500)?, &oscillator, start, Steps::default())?;
 /// assert!(states.last_gate().width() < 0.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
