@@ -4,7 +4,8 @@
 //! tube as they are: whoever narrows slices with them calls [`Tube::refresh`] once at the end, on all that may have changed.
 
 use crate::enclosure::Enclosure;
-use crate::error::TubeError;
+use crate::error::{Constraint, TubeError};
+use crate::time_domain::Place;
 use crate::tube::Tube;
 use shoal_interval::contractor::Contracted;
 
@@ -29,7 +30,8 @@ impl<T: Enclosure> Tube<T> {
     /// When there is no such gate.
     pub fn contract_gate(&mut self, index: usize, value: &T) -> Result<Contracted, TubeError> {
         self.check_gate(index)?;
-        Ok(self.narrow_gate(index, *value))
+        let contracted = self.narrow_gate(index, *value);
+        Ok(self.blamed(contracted, Constraint::Value))
     }
 
     /// Removes from slice `index`, and from the gates on both of its sides, everything that is not in `value`.
@@ -42,13 +44,16 @@ impl<T: Enclosure> Tube<T> {
         if contracted != Contracted::Unchanged {
             self.refresh(index..index + 1);
         }
-        Ok(contracted)
+        Ok(self.blamed(contracted, Constraint::Value))
     }
 
     /// Intersects a gate, which the caller knows to exist. No summary speaks of gates.
     #[inline]
     pub(crate) fn narrow_gate(&mut self, index: usize, value: T) -> Contracted {
-        narrow(&mut self.gates[index], value, &mut self.empty_count)
+        let before = self.gates[index];
+        let after = before & value;
+        self.gates[index] = after;
+        self.told(Place::Gate(index), before, after)
     }
 
     /// Intersects a slice, which the caller knows to exist, and with it the gates beside. The summaries wait for
@@ -59,28 +64,57 @@ impl<T: Enclosure> Tube<T> {
         let slice = self.slices[index];
         let of_input = self.narrow_gate(index, slice);
         let of_output = self.narrow_gate(index + 1, slice);
+        debug_assert!(self.gates_are_inside(index));
         together(together(of_slice, of_input), of_output)
     }
 
     /// [`narrow_slice`](Tube::narrow_slice) for a caller that narrows the two gates to the slice itself.
     #[inline]
     pub(crate) fn narrow_slice_alone(&mut self, index: usize, value: T) -> Contracted {
-        narrow(&mut self.slices[index], value, &mut self.empty_count)
+        let before = self.slices[index];
+        let after = before & value;
+        self.slices[index] = after;
+        self.told(Place::Slice(index), before, after)
     }
-}
 
-/// Intersects a set with another in place, and counts it if it became empty.
-#[inline]
-fn narrow<T: Enclosure>(set: &mut T, other: T, empty_count: &mut usize) -> Contracted {
-    let before = *set;
-    *set = before & other;
-    if set.is_empty() {
-        *empty_count += usize::from(!before.is_empty());
-        Contracted::Empty
-    } else if *set == before {
-        Contracted::Unchanged
-    } else {
-        Contracted::Narrowed
+    /// What must always be true of a slice.
+    pub(crate) fn gates_are_inside(&self, index: usize) -> bool {
+        self.gates.range(index..index + 2).all(|gate| gate.is_subset_of(&self.slices[index]))
+    }
+
+    /// What the contraction of a slice or a gate did.
+    #[inline]
+    fn told(&mut self, place: Place, before: T, after: T) -> Contracted {
+        if after.is_empty() {
+            self.note_empty(place, before);
+            Contracted::Empty
+        } else if after == before {
+            Contracted::Unchanged
+        } else {
+            Contracted::Narrowed
+        }
+    }
+
+    /// Remembers which constraint emptied the tube, if that has just happened; returns `contracted`.
+    #[inline]
+    pub(crate) fn blamed(&mut self, contracted: Contracted, constraint: Constraint) -> Contracted {
+        if contracted == Contracted::Empty
+            && let Some(emptied) = &mut self.first_emptied
+        {
+            emptied.constraint.get_or_insert(constraint);
+        }
+        contracted
+    }
+
+    #[cold]
+    fn note_empty(&mut self, place: Place, before: T) {
+        if before.is_empty() {
+            return;
+        }
+        if !self.is_empty() {
+            self.first_emptied = Some(self.empty_at(place));
+        }
+        self.empty_count += 1;
     }
 }
 

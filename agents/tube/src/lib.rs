@@ -38,13 +38,16 @@
 //! | how far between `t1` and `t2` | [`integral`](Tube::integral), [`integral_between`](Tube::integral_between) | O(log n) |
 //! | sharper, knowing the derivative | [`at_with_derivative`](Tube::at_with_derivative), [`over_with_derivative`](Tube::over_with_derivative), [`invert_with_derivative`](Tube::invert_with_derivative) | O(log n) |
 //! | is a trajectory, or a tube, inside | [`contains`](Tube::contains), [`holds`](Tube::holds), [`is_subset_of`](Tube::is_subset_of) | O(n) |
-//! | is anything left, and if not, where did it end | [`is_empty`](Tube::is_empty), [`first_empty`](Tube::first_empty) | O(1), O(n) |
+//! | is anything left | [`is_empty`](Tube::is_empty) | O(1) |
+//! | if not, what emptied it, where and when | [`emptied`](Tube::emptied) | O(1) |
 //!
 //! # What is learnt
 //!
 //! [`contract_gate`](Tube::contract_gate) and [`contract_slice`](Tube::contract_slice) take in a measurement,
-//! [`contract_derivative`](Tube::contract_derivative) carries it on. A measurement that contradicts the model leaves an
-//! empty tube: that is how a wrong model shows itself, and [`first_empty`](Tube::first_empty) says where.
+//! [`contract_derivative`](Tube::contract_derivative) carries it on. The module [`contractor`] lists what else can be known
+//! of trajectories: orders, delays, symmetries, values at uncertain times, state equations, pings. A measurement that
+//! contradicts the model leaves an empty tube: that is how a wrong model shows itself, and [`emptied`](Tube::emptied) says
+//! where, when and by which constraint.
 //!
 //! # Source
 //!
@@ -53,6 +56,7 @@
 mod arithmetic;
 mod components;
 mod contraction;
+pub mod contractor;
 mod derivative;
 mod enclosure;
 mod error;
@@ -73,7 +77,7 @@ mod tube;
 
 pub use derivative::Direction;
 pub use enclosure::{Enclosure, InnerBounds};
-pub use error::{Emptied, TubeError};
+pub use error::{Constraint, Emptied, TubeError};
 pub use shoal_interval::contractor::Contracted;
 pub use time_domain::{Place, TimeDomain};
 pub use tube::Tube;

@@ -1,7 +1,7 @@
 //! A tube that grows at one end and is forgotten at the other.
 
 use crate::enclosure::Enclosure;
-use crate::error::TubeError;
+use crate::error::{Constraint, TubeError};
 use crate::storage::push_sparingly;
 use crate::summary::Slices;
 use crate::time_domain::Place;
@@ -29,11 +29,13 @@ impl<T: Enclosure> Tube<T> {
         self.domain.append(end_s)?;
         let slice = settled(slice);
         let output_gate = settled(output_gate) & slice;
-        self.narrow_gate(self.gates.len() - 1, slice);
+        let contracted = self.narrow_gate(self.gates.len() - 1, slice);
+        self.blamed(contracted, Constraint::Value);
         push_sparingly(&mut self.slices, slice);
         push_sparingly(&mut self.gates, output_gate);
         self.empty_count += usize::from(slice.is_empty()) + usize::from(output_gate.is_empty());
         self.summaries.append(Slices { domain: &self.domain, values: &self.slices });
+        debug_assert!(self.gates_are_inside(self.slice_count() - 1));
         Ok(())
     }
 
@@ -45,6 +47,7 @@ impl<T: Enclosure> Tube<T> {
         let slices = self.slices.drain(..count).filter(T::is_empty).count();
         let gates = self.gates.drain(..count).filter(T::is_empty).count();
         self.empty_count -= slices + gates;
+        self.first_emptied = self.first_emptied.and_then(|emptied| emptied.without_front(count));
         self.summaries.drop_front(count);
     }
 
@@ -131,5 +134,19 @@ mod tests {
         assert_eq!(tube.at(1.0), Ok(over(1.5, 2.0)));
         assert_eq!(tube.contract_slice(2, &over(2.0, 2.5)), Ok(Contracted::Empty));
         assert!(tube.is_empty() && tube.width().is_nan());
+    }
+
+    #[test]
+    fn what_emptied_the_tube_moves_with_its_slice_and_goes_with_it() {
+        let mut tube = three_slices();
+        tube.contract_slice(1, &Interval::EMPTY).unwrap();
+        let emptied = tube.emptied().unwrap();
+        assert_eq!((emptied.place, emptied.constraint), (Place::Slice(1), Some(Constraint::Value)));
+        tube.drop_front(1);
+        assert_eq!(tube.emptied().map(|emptied| emptied.place), Some(Place::Slice(0)));
+        tube.drop_front(1);
+        // The gate at the end of the slice is still empty.
+        assert_eq!(tube.emptied(), tube.first_empty());
+        assert_eq!(tube.emptied().map(|emptied| emptied.place), Some(Place::Gate(0)));
     }
 }
