@@ -8,7 +8,7 @@ use nalgebra::{SVector, Vector2};
 use proptest::prelude::*;
 use shoal_interval::contractor::Contracted;
 use shoal_interval::expression::Expression;
-use shoal_interval::{Interval, IntervalBox};
+use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 
 fn over(lower: f64, upper: f64) -> Interval {
     Interval::new(lower, upper).unwrap()
@@ -173,6 +173,43 @@ fn van_der_pol_forward_and_backward() {
     assert_eq!(tube.codomain(), tube.slices().reduce(|hull, slice| hull | slice).unwrap());
 }
 
+/// `x'' = -x^3`, with all that an evolution can tell.
+struct Cubic;
+
+impl Evolution<2> for Cubic {
+    fn velocity(&self, _times_s: Interval, s: &IntervalBox<2>) -> IntervalBox<2> {
+        IntervalBox::from([s[1], -s[0].powi(3)])
+    }
+
+    fn jacobian(&self, _times_s: Interval, s: &IntervalBox<2>) -> Option<IntervalMatrix<2, 2>> {
+        Some(IntervalMatrix::from([[at(0.0), at(1.0)], [s[0].sqr() * -3.0, at(0.0)]]))
+    }
+
+    fn acceleration(&self, _times_s: Interval, s: &IntervalBox<2>) -> Option<IntervalBox<2>> {
+        Some(IntervalBox::from([-s[0].powi(3), s[0].sqr() * s[1] * -3.0]))
+    }
+
+    fn jacobian_rate(&self, _times_s: Interval, s: &IntervalBox<2>) -> Option<IntervalMatrix<2, 2>> {
+        Some(IntervalMatrix::from([[at(0.0); 2], [s[0] * s[1] * -6.0, at(0.0)]]))
+    }
+}
+
+#[test]
+fn the_rate_of_the_jacobian_makes_enclosures_tighter() {
+    let start = Vector2::new(2.0, 1.0);
+    let time = TimeDomain::uniform(0.0, 0.01, 500).unwrap();
+    let around = IntervalBox::centred(&start, 1e-4);
+    let plain = Expression::system(|[x, v]| [v, -x.powi(3)]);
+    let without = Tube::solution(time.clone(), &plain, around, Steps::default()).unwrap();
+    let tube = Tube::solution(time, &Cubic, around, Steps::default()).unwrap();
+    let field = |_: f64, s: &Vector2<f64>| Vector2::new(s.y, -s.x * s.x * s.x);
+    for corner in IntervalBox::centred(&start, 0.99e-4).corners() {
+        assert!(holds_all(&tube, &runge_kutta(field, corner, 0.01, 500)));
+    }
+    println!("without {:e}, with {:e}", without.last_gate().width(), tube.last_gate().width());
+    assert!(tube.last_gate().width() < 0.5 * without.last_gate().width());
+}
+
 #[test]
 fn steps_halve_until_a_slice_has_an_enclosure() {
     let time = TimeDomain::uniform(0.0, 2.0, 3).unwrap();
@@ -281,7 +318,7 @@ proptest! {
         };
         let driven = Driven::new(velocity, |_: Interval, s: &IntervalBox<2>| {
             let [x, y] = s.sides();
-            shoal_interval::IntervalMatrix::from([
+            IntervalMatrix::from([
                 [y * e + x * f * 2.0 + a, x * e + b],
                 [y * g + c, x * g + y * h * 2.0 + d],
             ])
