@@ -1,7 +1,7 @@
 //! Sum, difference, product and quotient, rounded outwards.
 //!
-//! Each gives the smallest interval with `f64` bounds that holds every result for numbers taken from the operands, except
-//! in the last bit where an exact result is below 2^-960. An operand that is empty gives the empty set. A plain number as
+//! Each gives the smallest interval with `f64` bounds that holds every result for numbers taken from the operands: the
+//! tightest, in the words of IEEE Std 1788-2015, table 9.1. An operand that is empty gives the empty set. A plain number as
 //! operand stands for itself; NaN stands for any number.
 //!
 //! Source: seed 001, equations (2.8) to (2.14).

@@ -2,7 +2,7 @@
 
 use crate::error::IntervalError;
 use crate::rounding::{add_up, sub_down};
-use std::fmt;
+use crate::set::larger;
 
 /// A closed set of real numbers `{x : lower <= x <= upper}`, possibly empty, possibly unbounded.
 ///
@@ -153,6 +153,28 @@ impl Interval {
         if self.is_empty() { f64::NAN } else { add_up(self.upper, -self.lower) }
     }
 
+    /// The smallest radius that reaches all of the interval from [`mid`](Interval::mid), rounded up; `+inf` when unbounded,
+    /// NaN for the empty set.
+    ///
+    /// The interval is a subset of `Interval::centred(x.mid(), x.radius())`. It is half of the width only if `mid` is exact.
+    /// Source: IEEE 1788-2015, clause 12.12.8 (`rad`).
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    ///
+    /// let depth_m = Interval::new(10.0, 12.5)?;
+    /// assert_eq!((depth_m.mid(), depth_m.radius()), (11.25, 1.25));
+    /// # Ok::<(), shoal_interval::IntervalError>(())
+    /// ```
+    #[inline]
+    pub fn radius(self) -> f64 {
+        if self.is_empty() {
+            return f64::NAN;
+        }
+        let middle = self.mid();
+        larger(add_up(self.upper(), -middle), add_up(middle, -self.lower()))
+    }
+
     /// The largest absolute value in the interval; NaN for the empty set.
     #[inline]
     pub fn magnitude(self) -> f64 {
@@ -181,21 +203,6 @@ impl Interval {
     #[inline]
     pub const fn is_point(self) -> bool {
         self.lower == self.upper
-    }
-}
-
-/// Writes `[lower, upper]`, or `empty`. A precision (`{:.2}`) rounds both bounds to the nearest, for people to read.
-impl fmt::Display for Interval {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_empty() {
-            return formatter.write_str("empty");
-        }
-        // Adding zero turns a negative zero, which is an accident of rounding, into a plain one.
-        let (lower, upper) = (self.lower + 0.0, self.upper + 0.0);
-        match formatter.precision() {
-            Some(digits) => write!(formatter, "[{lower:.digits$}, {upper:.digits$}]"),
-            None => write!(formatter, "[{lower}, {upper}]"),
-        }
     }
 }
 
@@ -246,9 +253,11 @@ mod tests {
     }
 
     #[test]
-    fn people_read_bounds() {
-        assert_eq!(Interval::EMPTY.to_string(), "empty");
-        assert_eq!(Interval::new(-0.0, 1.5).unwrap().to_string(), "[0, 1.5]");
-        assert_eq!(Interval::ENTIRE.to_string(), "[-inf, inf]");
+    fn a_radius_reaches_both_bounds() {
+        let neighbours = Interval::new(1.0, 1.0_f64.next_up()).unwrap();
+        assert_eq!(neighbours.radius(), f64::EPSILON);
+        assert_eq!(Interval::new(f64::MIN, f64::MAX).unwrap().radius(), f64::MAX);
+        assert_eq!((Interval::ONE.radius(), Interval::NON_NEGATIVE.radius()), (0.0, f64::INFINITY));
+        assert!(Interval::EMPTY.radius().is_nan());
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::interval::Interval;
 use nalgebra::SVector;
-use std::fmt;
 use std::ops::{BitAnd, BitOr, Index, IndexMut};
 
 mod arithmetic;
@@ -150,22 +149,6 @@ impl<const N: usize> BitOr for IntervalBox<N> {
     #[inline]
     fn bitor(self, other: IntervalBox<N>) -> IntervalBox<N> {
         self.hull(&other)
-    }
-}
-
-/// Writes the sides joined by `x`, or `empty`; a precision is passed on to the sides.
-impl<const N: usize> fmt::Display for IntervalBox<N> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_empty() {
-            return formatter.write_str("empty");
-        }
-        for (axis, side) in self.sides.iter().enumerate() {
-            if axis > 0 {
-                formatter.write_str(" x ")?;
-            }
-            side.fmt(formatter)?;
-        }
-        Ok(())
     }
 }
 

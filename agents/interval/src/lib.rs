@@ -32,6 +32,7 @@ mod elementary;
 mod error;
 mod interval;
 mod interval_box;
+mod interval_matrix;
 mod membership;
 mod reverse;
 mod rounding;
@@ -41,8 +42,12 @@ mod serialization;
 mod set;
 #[cfg(test)]
 mod strategies;
+mod text;
 
+pub use comparison::Overlap;
 pub use error::IntervalError;
 pub use interval::Interval;
 pub use interval_box::{Difference, IntervalBox};
+pub use interval_matrix::IntervalMatrix;
 pub use membership::Membership;
+pub use text::ParseIntervalError;

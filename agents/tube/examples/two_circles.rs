@@ -83,8 +83,23 @@ fn main() -> Result<(), TubeError> {
 
 fn print(when: &str, ping: &Ping) {
     println!("  {when}");
-    println!("    a {:.2} s, p1 {:.2} m", ping.emission_s, ping.emitter_m);
-    println!("    b {:.2} s, p2 {:.2} m", ping.reception_s, ping.position_m);
+    println!("    a {} s, p1 {} m", nearest(ping.emission_s), nearest_sides(ping.emitter_m));
+    println!("    b {} s, p2 {} m", nearest(ping.reception_s), nearest_sides(ping.position_m));
+}
+
+/// The bounds with the digits of the seed, rounded to nearest as there; `{:.2}` of an interval rounds outwards.
+fn nearest(interval: Interval) -> String {
+    if interval.is_empty() {
+        return "empty".to_owned();
+    }
+    format!("[{:.2}, {:.2}]", interval.lower(), interval.upper())
+}
+
+fn nearest_sides(position_m: IntervalBox<2>) -> String {
+    if position_m.is_empty() {
+        return "empty".to_owned();
+    }
+    position_m.sides().map(nearest).join(" x ")
 }
 
 /// What is known before the ping is used, by the rules of the seed.

@@ -18,7 +18,7 @@ use crate::interval_box::IntervalBox;
 /// let mut vehicle = IntervalBox::from([Interval::new(1.0, 9.0)?, Interval::new(-3.0, 3.0)?]);
 /// let mut range_m = Interval::new(4.0, 5.0)?;
 /// assert_eq!(contract_distance(&mut beacon, &mut vehicle, &mut range_m), Contracted::Narrowed);
-/// assert_eq!(format!("{vehicle:.2}"), "[2.65, 5.00] x [-3.00, 3.00]");
+/// assert_eq!(format!("{vehicle:.2}"), "[2.64, 5.00] x [-3.00, 3.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -68,8 +68,8 @@ pub fn contract_distance<const N: usize>(
 /// let mut reception = Interval::new(10.0, 10.2)?;
 /// let mut emission = Interval::point(9.9)?;
 /// assert!(contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission));
-/// assert_eq!(format!("{:.3}", position[0]), "[150.000, 200.000]");
-/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.033]");
+/// assert_eq!(format!("{:.3}", position[0]), "[149.999, 200.000]");
+/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.034]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

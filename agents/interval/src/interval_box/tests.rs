@@ -62,7 +62,7 @@ fn a_long_side_without_numbers_inside_does_not_stop_the_cutting() {
 fn volumes() {
     let x = IntervalBox::from([Interval::new(0.0, 0.1).unwrap(), Interval::new(-1.0, 2.0).unwrap()]);
     assert_eq!((x.volume(), x.volume_enclosure().upper()), (0.3_f64.next_up(), 0.3_f64.next_up()));
-    assert!(x.volume_enclosure().contains(0.3_f64.next_down().next_up()));
+    assert!(x.volume_enclosure().contains(0.3));
     let flat = IntervalBox::from([Interval::ONE, Interval::ENTIRE]);
     assert_eq!((flat.volume(), flat.volume_enclosure(), flat.is_flat()), (0.0, Interval::ZERO, true));
     assert_eq!(IntervalBox::<2>::EMPTY.volume(), 0.0);
