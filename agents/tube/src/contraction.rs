@@ -55,11 +55,17 @@ impl<T: Enclosure> Tube<T> {
     /// [`refresh`](Tube::refresh).
     #[inline]
     pub(crate) fn narrow_slice(&mut self, index: usize, value: T) -> Contracted {
-        let of_slice = narrow(&mut self.slices[index], value, &mut self.empty_count);
+        let of_slice = self.narrow_slice_alone(index, value);
         let slice = self.slices[index];
         let of_input = self.narrow_gate(index, slice);
         let of_output = self.narrow_gate(index + 1, slice);
         together(together(of_slice, of_input), of_output)
+    }
+
+    /// [`narrow_slice`](Tube::narrow_slice) for a caller that narrows the two gates to the slice itself.
+    #[inline]
+    pub(crate) fn narrow_slice_alone(&mut self, index: usize, value: T) -> Contracted {
+        narrow(&mut self.slices[index], value, &mut self.empty_count)
     }
 }
 

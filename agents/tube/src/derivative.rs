@@ -114,8 +114,11 @@ impl<T: Enclosure> Tube<T> {
     pub(crate) fn carry_forward(&mut self, index: usize, derivative: T) -> Contracted {
         let travel = Travel::new(derivative, self.domain.duration_at(index));
         let input_gate = self.gates[index];
-        let of_gate = self.narrow_gate(index + 1, input_gate + travel.across);
-        together(of_gate, self.narrow_slice(index, input_gate + travel.within))
+        let of_slice = self.narrow_slice_alone(index, input_gate + travel.within);
+        let slice = self.slices[index];
+        let of_input = self.narrow_gate(index, slice);
+        let of_output = self.narrow_gate(index + 1, (input_gate + travel.across) & slice);
+        together(of_slice, together(of_input, of_output))
     }
 
     /// [`carry_forward`](Tube::carry_forward), from the output gate to the input gate.
@@ -123,8 +126,11 @@ impl<T: Enclosure> Tube<T> {
     pub(crate) fn carry_backward(&mut self, index: usize, derivative: T) -> Contracted {
         let travel = Travel::new(derivative, self.domain.duration_at(index));
         let output_gate = self.gates[index + 1];
-        let of_gate = self.narrow_gate(index, output_gate - travel.across);
-        together(of_gate, self.narrow_slice(index, output_gate - travel.within))
+        let of_slice = self.narrow_slice_alone(index, output_gate - travel.within);
+        let slice = self.slices[index];
+        let of_output = self.narrow_gate(index + 1, slice);
+        let of_input = self.narrow_gate(index, (output_gate - travel.across) & slice);
+        together(of_slice, together(of_input, of_output))
     }
 }
 

@@ -10,6 +10,9 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// How often the place of a time is guessed before it is bisected.
+const GUESSES: usize = 4;
+
 /// Strictly increasing times, in seconds, that cut an interval of time into slices.
 ///
 /// Slice `i` is the time from border `i` to border `i + 1`, both included; a domain of `n` slices has `n + 1` borders. The
@@ -267,28 +270,36 @@ impl TimeDomain {
     }
 
     /// The index of the last border that is not after a time of the domain.
+    ///
+    /// Guesses as if all slices were as long as the mean one, from closer and closer borders; what is left between the
+    /// borders that were tried is bisected.
     #[inline]
     fn last_border_up_to(&self, time_s: f64) -> usize {
-        let guess = match &self.borders {
-            Borders::Regular(regular) => regular.border_near(time_s),
-            Borders::Listed(_) => {
-                let share = (time_s - self.start_s()) / (self.end_s() - self.start_s());
-                // A cast of NaN, from an infinite length, gives zero.
-                (share * self.slice_count() as f64) as usize
-            }
-        };
         let last = self.slice_count();
-        for border in guess.saturating_sub(1)..=guess.saturating_add(1).min(last) {
-            if self.border_at(border) <= time_s && (border == last || time_s < self.border_at(border + 1)) {
-                return border;
+        let slices_per_s = match &self.borders {
+            Borders::Regular(regular) => 1.0 / regular.step_s(),
+            Borders::Listed(_) => last as f64 / (self.end_s() - self.start_s()),
+        };
+        // Border `low` is not after the time; border `high`, if there is one, is.
+        let (mut low, mut high) = (0, last + 1);
+        let (mut known, mut known_s) = (0, self.start_s());
+        for _ in 0..GUESSES {
+            // A cast of NaN, from a domain of infinite length, gives zero.
+            let guess = (known as f64 + (time_s - known_s) * slices_per_s) as usize;
+            known = guess.clamp(low, high - 1);
+            known_s = self.border_at(known);
+            if known_s <= time_s {
+                if known == last || time_s < self.border_at(known + 1) {
+                    return known;
+                }
+                low = known + 1;
+            } else {
+                if self.border_at(known - 1) <= time_s {
+                    return known - 1;
+                }
+                high = known - 1;
             }
         }
-        self.bisected_to(time_s)
-    }
-
-    fn bisected_to(&self, time_s: f64) -> usize {
-        // Border `low` is not after the time, border `high`, if there is one, is.
-        let (mut low, mut high) = (0, self.slice_count() + 1);
         while high - low > 1 {
             let middle = usize::midpoint(low, high);
             if self.border_at(middle) <= time_s { low = middle } else { high = middle }

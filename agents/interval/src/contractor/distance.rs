@@ -1,14 +1,21 @@
-//! Contractors for the distance between two points, and for a ping that travels it.
+//! The contractor for the distance between two points.
+//!
+//! Every range measurement of every AUV ends here, so this is written on bounds: nothing is computed for a bound that
+//! cannot move. Forward, a square root is taken only when the points bound the range; backward, only for an axis that the
+//! range bounds.
 
 use super::Contracted;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
+use crate::rounding::{add_down, add_up, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up};
+use crate::set::{larger, smaller};
 
 /// Contracts two boxes and an interval linked by `‖a - b‖ = range`, the Euclidean norm, all in the same unit.
 ///
 /// One forward-backward pass. No triple of points and number that satisfies the equation is ever lost; an axis is contracted
 /// with what the other axes leave of the squared range, and stays on its own side when only one of the two roots is
-/// possible.
+/// possible. As each coordinate appears once in the equation, the one pass is minimal: a second one moves bounds by
+/// rounding only.
 ///
 /// ```
 /// use shoal_interval::contractor::{Contracted, contract_distance};
@@ -18,95 +25,171 @@ use crate::interval_box::IntervalBox;
 /// let mut vehicle = IntervalBox::from([Interval::new(1.0, 9.0)?, Interval::new(-3.0, 3.0)?]);
 /// let mut range_m = Interval::new(4.0, 5.0)?;
 /// assert_eq!(contract_distance(&mut beacon, &mut vehicle, &mut range_m), Contracted::Narrowed);
-/// assert_eq!(format!("{vehicle:.2}"), "[2.64, 5.00] x [-3.00, 3.00]");
+/// assert_eq!(format!("{vehicle:.2}"), "[2.65, 5.00] x [-3.00, 3.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
 /// Source: seed 001, equation (2.33) and table 2.1.
+#[inline]
 pub fn contract_distance<const N: usize>(
     a: &mut IntervalBox<N>,
     b: &mut IntervalBox<N>,
     range: &mut Interval,
 ) -> Contracted {
-    let before = (*a, *b, *range);
-
-    let mut difference = *a - *b;
-    let mut squares: [Interval; N] = std::array::from_fn(|axis| difference[axis].sqr());
-    *range = *range & sum(&squares).sqrt() & Interval::NON_NEGATIVE;
-    let square_of_range = range.sqr();
-    for axis in 0..N {
-        let others = sum_without(&squares, axis);
-        squares[axis] = squares[axis] & (square_of_range - others);
-        difference[axis] = difference[axis].with_square_in(squares[axis]);
-        a[axis] = a[axis] & (b[axis] + difference[axis]);
-        b[axis] = b[axis] & (a[axis] - difference[axis]);
+    let contracted = contract(a, b, range);
+    if let Some(narrowed) = contracted {
+        return Contracted::from_flags(false, narrowed);
     }
+    (*a, *b, *range) = (IntervalBox::EMPTY, IntervalBox::EMPTY, Interval::EMPTY);
+    Contracted::Empty
+}
 
-    if a.is_empty() || b.is_empty() || range.is_empty() {
-        (*a, *b, *range) = (IntervalBox::EMPTY, IntervalBox::EMPTY, Interval::EMPTY);
-        Contracted::Empty
-    } else if (*a, *b, *range) == before {
-        Contracted::Unchanged
+/// Whether anything was removed; `None` when nothing is left, and then what is in the arguments has no meaning.
+#[inline]
+fn contract<const N: usize>(
+    a: &mut IntervalBox<N>,
+    b: &mut IntervalBox<N>,
+    range: &mut Interval,
+) -> Option<bool> {
+    let range_is_empty = range.upper() < 0.0 || range.is_empty();
+    if range_is_empty || a.is_empty() || b.is_empty() {
+        return None;
+    }
+    let differences: [Bounds; N] = std::array::from_fn(|axis| Bounds {
+        lower: sub_down(a[axis].lower(), b[axis].upper()),
+        upper: sub_up(a[axis].upper(), b[axis].lower()),
+    });
+    let squares = differences.map(Bounds::square);
+
+    // The squares before an axis and those after it; subtracting its own from the sum of all would count its width twice.
+    let mut after = [Bounds::ZERO; N];
+    for axis in (1..N).rev() {
+        after[axis - 1] = if axis + 1 == N { squares[axis] } else { squares[axis].plus(after[axis]) };
+    }
+    let sum = if N == 0 {
+        Bounds::ZERO
+    } else if N == 1 {
+        squares[0]
     } else {
-        Contracted::Narrowed
+        squares[0].plus(after[0])
+    };
+
+    let mut narrowed = false;
+    let shortest = larger(range.lower(), 0.0);
+    let mut square =
+        Bounds { lower: mul_down(shortest, shortest), upper: mul_up(range.upper(), range.upper()) };
+    let (mut lower, mut upper) = (shortest, range.upper());
+    if sum.lower > square.lower {
+        square.lower = sum.lower;
+        lower = larger(lower, sqrt_down(sum.lower));
     }
-}
-
-/// Contracts everything that a ping links: `‖position - emitter‖ = sound_speed * (reception - emission)`.
-///
-/// `position` is where the receiver is at `reception`, `emitter` where the sender was at `emission`; metres, metres per
-/// second and seconds of true time. One forward-backward pass, which loses no solution. Returns whether anything is
-/// left; when nothing is, all five sets are empty.
-///
-/// ```
-/// use shoal_interval::contractor::contract_range;
-/// use shoal_interval::{Interval, IntervalBox};
-///
-/// let mut position = IntervalBox::from([Interval::new(0.0, 200.0)?, Interval::ZERO, Interval::ZERO]);
-/// let mut emitter = IntervalBox::from([Interval::ZERO; 3]);
-/// let mut sound_speed = Interval::point(1500.0)?;
-/// let mut reception = Interval::new(10.0, 10.2)?;
-/// let mut emission = Interval::point(9.9)?;
-/// assert!(contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission));
-/// assert_eq!(format!("{:.3}", position[0]), "[149.999, 200.000]");
-/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.034]");
-/// # Ok::<(), shoal_interval::IntervalError>(())
-/// ```
-///
-/// Source: seed 001, equations (5.4) and (5.7).
-#[must_use = "an empty result says that the sets contradict each other"]
-pub fn contract_range<const N: usize>(
-    position: &mut IntervalBox<N>,
-    emitter: &mut IntervalBox<N>,
-    sound_speed: &mut Interval,
-    reception: &mut Interval,
-    emission: &mut Interval,
-) -> bool {
-    let mut delay = *reception - *emission;
-    let mut range = *sound_speed * delay;
-    let contracted = contract_distance(position, emitter, &mut range);
-
-    delay = delay.with_product_in(*sound_speed, range);
-    *sound_speed = sound_speed.with_product_in(delay, range);
-    *reception = *reception & (*emission + delay);
-    *emission = *emission & (*reception - delay);
-
-    let empty = contracted == Contracted::Empty
-        || [*sound_speed, *reception, *emission].into_iter().any(Interval::is_empty);
-    if empty {
-        (*position, *emitter) = (IntervalBox::EMPTY, IntervalBox::EMPTY);
-        (*sound_speed, *reception, *emission) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
+    if sum.upper < square.upper {
+        square.upper = sum.upper;
+        upper = smaller(upper, sqrt_up(sum.upper));
     }
-    !empty
+    if square.lower > square.upper || lower > upper {
+        return None;
+    }
+    if lower != range.lower() || upper != range.upper() {
+        *range = Interval::from_bounds(lower, upper);
+        narrowed = true;
+    }
+
+    let mut before = Bounds::ZERO;
+    for axis in 0..N {
+        let others = if axis == 0 {
+            after[0]
+        } else if axis + 1 == N {
+            before
+        } else {
+            before.plus(after[axis])
+        };
+        before = if axis == 0 { squares[0] } else { before.plus(squares[axis]) };
+        let left =
+            Bounds { lower: sub_down(square.lower, others.upper), upper: sub_up(square.upper, others.lower) };
+        if left.lower <= squares[axis].lower && left.upper >= squares[axis].upper {
+            continue;
+        }
+        let whole = differences[axis];
+        let part = whole.with_square_in(squares[axis], left)?;
+        narrowed |= contract_side(&mut a[axis], &mut b[axis], whole, part)?;
+    }
+    Some(narrowed)
 }
 
-fn sum(terms: &[Interval]) -> Interval {
-    terms.iter().fold(Interval::ZERO, |total, &term| total + term)
+/// Contracts `a` and `b` when `a - b`, known to be in `whole`, must be in `part`; whether that moved a bound.
+#[inline]
+fn contract_side(a: &mut Interval, b: &mut Interval, whole: Bounds, part: Bounds) -> Option<bool> {
+    let (mut new_a, mut new_b) = (Bounds::of(*a), Bounds::of(*b));
+    if part.lower > whole.lower {
+        new_a.lower = larger(a.lower(), add_down(b.lower(), part.lower));
+        new_b.upper = smaller(b.upper(), sub_up(a.upper(), part.lower));
+    }
+    if part.upper < whole.upper {
+        new_a.upper = smaller(a.upper(), add_up(b.upper(), part.upper));
+        new_b.lower = larger(b.lower(), sub_down(a.lower(), part.upper));
+    }
+    if new_a.lower > new_a.upper || new_b.lower > new_b.upper {
+        return None;
+    }
+    let narrowed = new_a != Bounds::of(*a) || new_b != Bounds::of(*b);
+    *a = Interval::from_bounds(new_a.lower, new_a.upper);
+    *b = Interval::from_bounds(new_b.lower, new_b.upper);
+    Some(narrowed)
 }
 
-/// The sum of all terms but one. Subtracting that one from the full sum would count its width twice.
-fn sum_without(terms: &[Interval], left_out: usize) -> Interval {
-    sum(&terms[..left_out]) + sum(&terms[left_out + 1..])
+/// An interval that is not empty, and need not be looked at for that again.
+#[derive(Clone, Copy, PartialEq)]
+struct Bounds {
+    lower: f64,
+    upper: f64,
+}
+
+impl Bounds {
+    const ZERO: Bounds = Bounds { lower: 0.0, upper: 0.0 };
+
+    #[inline]
+    fn of(interval: Interval) -> Bounds {
+        Bounds { lower: interval.lower(), upper: interval.upper() }
+    }
+
+    #[inline]
+    fn plus(self, other: Bounds) -> Bounds {
+        Bounds { lower: add_down(self.lower, other.lower), upper: add_up(self.upper, other.upper) }
+    }
+
+    #[inline]
+    fn square(self) -> Bounds {
+        let smallest = larger(0.0, larger(self.lower, -self.upper));
+        let largest = larger(-self.lower, self.upper);
+        Bounds { lower: mul_down(smallest, smallest), upper: mul_up(largest, largest) }
+    }
+
+    /// The hull of the numbers whose square, already known to be in `known`, is in `wanted`.
+    #[inline]
+    fn with_square_in(self, known: Bounds, wanted: Bounds) -> Option<Bounds> {
+        let Bounds { mut lower, mut upper } = self;
+        if wanted.upper < known.upper {
+            if wanted.upper < 0.0 {
+                return None;
+            }
+            let root = sqrt_up(wanted.upper);
+            lower = larger(lower, -root);
+            upper = smaller(upper, root);
+        }
+        if wanted.lower > known.lower {
+            // The numbers between the two roots are too small: a bound that is there moves to the root on its far side.
+            let root = sqrt_down(wanted.lower);
+            let (below, above) = (lower <= -root, upper >= root);
+            if !below {
+                lower = larger(lower, root);
+            }
+            if !above {
+                upper = smaller(upper, -root);
+            }
+        }
+        (lower <= upper).then_some(Bounds { lower, upper })
+    }
 }
 
 #[cfg(test)]

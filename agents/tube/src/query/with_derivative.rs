@@ -89,7 +89,7 @@ impl Tube<Interval> {
     /// let speed_m_s = Tube::constant(TimeDomain::uniform(0.0, 1.0, 9)?, Interval::new(1.0, 2.0)?);
     /// let x_m = Tube::primitive(&speed_m_s, Interval::ZERO);
     /// let at_three_m = Interval::point(3.0)?;
-    /// assert_eq!(x_m.invert(at_three_m), Interval::new(1.0, 3.0)?);
+    /// assert_eq!(x_m.invert(at_three_m), Interval::new(1.0, 4.0)?);
     /// let sharper = x_m.invert_with_derivative(at_three_m, &speed_m_s, Interval::ENTIRE)?;
     /// assert_eq!(sharper, Interval::new(1.5, 3.0)?);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -64,10 +64,9 @@ impl Regular {
         self.count -= count;
     }
 
-    /// The index of a border within a few steps of a time, if rounding was kind.
     #[inline]
-    pub(super) fn border_near(&self, time_s: f64) -> usize {
-        (((time_s - self.origin_s) / self.step_s) as usize).saturating_sub(self.first).min(self.count)
+    pub(super) fn step_s(&self) -> f64 {
+        self.step_s
     }
 
     /// What [`Regular::new`] was given, if nothing was dropped since.
