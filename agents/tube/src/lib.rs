@@ -29,6 +29,7 @@ mod contraction;
 mod derivative;
 mod enclosure;
 mod error;
+pub mod figure;
 mod integral;
 mod inversion;
 mod online;

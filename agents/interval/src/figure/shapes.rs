@@ -76,6 +76,11 @@ impl Figure {
         self.line(corners, Class::Line, "z")
     }
 
+    /// Adds a polygon of one class with what is inside it.
+    pub fn area(self, corners: &[Vector2<f64>], class: Class) -> Figure {
+        self.line(corners, class, "z")
+    }
+
     /// Adds a curve through points.
     pub fn curve(self, points: &[Vector2<f64>]) -> Figure {
         self.line(points, Class::Curve, "")
