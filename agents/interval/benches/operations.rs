@@ -72,13 +72,8 @@ impl Bench {
             let mut sound_speed = Interval::new(1480.0, 1520.0).expect("ordered");
             let mut reception = Interval::new(1.0, 1.1).expect("ordered");
             let mut emission = Interval::new(0.1, 0.2).expect("ordered");
-            let kept = contract_range(
-                &mut position,
-                &mut emitter,
-                &mut sound_speed,
-                &mut reception,
-                &mut emission,
-            );
+            let kept =
+                contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission);
             (kept, position, emitter, sound_speed, reception, emission)
         });
         let polar: Vec<_> = (0..OPERANDS).map(|_| random.polar()).collect();
@@ -97,9 +92,9 @@ impl Bench {
         let over = |lower, upper| Interval::new(lower, upper).expect("ordered");
         let ring =
             |x, y, lower, upper| Ring::new(Vector2::new(x, y), over(lower, upper)).expect("a finite centre");
-        let seen = ring(3.0, 3.0, 3.0, 4.0).intersection(ring(-3.0, -1.0, 5.0, 6.0)).intersection(ring(
-            -2.0, 2.0, 4.0, 5.0,
-        ));
+        let seen = ring(3.0, 3.0, 3.0, 4.0)
+            .intersection(ring(-3.0, -1.0, 5.0, 6.0))
+            .intersection(ring(-2.0, 2.0, 4.0, 5.0));
         let initial = IntervalBox::from([over(-10.0, 10.0); 2]);
         let paved = || pave(&seen, initial, &Options::new(0.05)).expect("a bounded box");
         let separations = paved().statistics().tests as f64;

@@ -184,7 +184,7 @@ impl Figure {
             let from_top = height - 20.0;
             let _ = writeln!(
                 svg,
-                r#"<rect class="{}" x="{at}" y="{from_top}" width="12" height="12"/><text x="{}" y="{}">{}</text>"#,
+                r#"<rect class="key {}" x="{at}" y="{from_top}" width="12" height="12"/><text x="{}" y="{}">{}</text>"#,
                 class.name(),
                 at + 17.0,
                 from_top + 10.5,

@@ -65,8 +65,8 @@ pub trait DrawTube: Sized {
     /// Adds what was measured, and when, as the outline of a box.
     fn measurement(self, times_s: Interval, value: Interval) -> Self;
 
-    /// Adds two axes of a tube of boxes as a trace in the plane, one box a slice. Nothing is drawn of an axis that the
-    /// boxes do not have.
+    /// Adds two axes of a tube of boxes as a trace in the plane: what the boxes of all slices cover. Nothing is drawn of an
+    /// axis that the boxes do not have.
     fn trace<const N: usize>(self, tube: &Tube<IntervalBox<N>>, axes: [usize; 2], class: Class) -> Self;
 
     /// Adds a path in the plane over `times_s` as a curve through 1,001 of its points.
@@ -93,8 +93,7 @@ impl DrawTube for Figure {
         for (time_s, gate) in tube.domain().borders_s().zip(tube.gates()) {
             let shown = gate & values;
             if !shown.is_empty() {
-                self =
-                    self.segment(Vector2::new(time_s, shown.lower()), Vector2::new(time_s, shown.upper()));
+                self = self.segment(Vector2::new(time_s, shown.lower()), Vector2::new(time_s, shown.upper()));
             }
         }
         self
@@ -115,7 +114,7 @@ impl DrawTube for Figure {
         }
         let boxes: Vec<_> =
             tube.slices().map(|slice| IntervalBox::from([slice[first], slice[second]])).collect();
-        self.boxes(&boxes, class)
+        self.union(&boxes, class)
     }
 
     fn path(self, times_s: Interval, position: impl Fn(f64) -> Vector2<f64>) -> Figure {
@@ -194,7 +193,8 @@ mod tests {
 
     #[test]
     fn a_tube_is_one_outline() {
-        let svg = figure().tube(&steps([over(1.0, 2.0), over(1.0, 3.0), over(2.0, 3.0)]), Class::Level(0)).to_svg();
+        let svg =
+            figure().tube(&steps([over(1.0, 2.0), over(1.0, 3.0), over(2.0, 3.0)]), Class::Level(0)).to_svg();
         assert!(svg.contains(r#"<path class="level0" d="M0 2L1 2L1 3L3 3L3 2L2 2L2 1L0 1z"/>"#), "{svg}");
     }
 
