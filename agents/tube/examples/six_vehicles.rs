@@ -381,7 +381,8 @@ mod tests {
             assert_eq!(afterwards.contains(truth), Membership::Inside);
             assert!(afterwards.is_subset_of(online).unwrap());
             assert_eq!(afterwards.domain(), outcome.unknown.domain());
-            println!("{} {}", mean_width(online), mean_width(afterwards));
+            assert!(mean_width(online) < 150.0 && mean_width(&outcome.unknown) == 300.0);
+            assert!(mean_width(afterwards) < if vehicle < 3 { 10.0 } else { 35.0 });
         }
     }
 }
