@@ -4,7 +4,8 @@
 //! tube as they are: whoever narrows slices with them calls [`Tube::refresh`] once at the end, on all that may have changed.
 
 use crate::enclosure::Enclosure;
-use crate::error::TubeError;
+use crate::error::{Constraint, TubeError};
+use crate::time_domain::Place;
 use crate::tube::Tube;
 use shoal_interval::contractor::Contracted;
 
@@ -29,7 +30,8 @@ impl<T: Enclosure> Tube<T> {
     /// When there is no such gate.
     pub fn contract_gate(&mut self, index: usize, value: &T) -> Result<Contracted, TubeError> {
         self.check_gate(index)?;
-        Ok(self.narrow_gate(index, *value))
+        let contracted = self.narrow_gate(index, *value);
+        Ok(self.blamed(contracted, Constraint::Value))
     }
 
     /// Removes from slice `index`, and from the gates on both of its sides, everything that is not in `value`.
@@ -42,13 +44,18 @@ impl<T: Enclosure> Tube<T> {
         if contracted != Contracted::Unchanged {
             self.refresh(index..index + 1);
         }
-        Ok(contracted)
+        Ok(self.blamed(contracted, Constraint::Value))
     }
 
     /// Intersects a gate, which the caller knows to exist. No summary speaks of gates.
     #[inline]
     pub(crate) fn narrow_gate(&mut self, index: usize, value: T) -> Contracted {
-        narrow(&mut self.gates[index], value, &mut self.empty_count)
+        let was_empty = self.is_empty();
+        let contracted = narrow(&mut self.gates[index], value, &mut self.empty_count);
+        if !was_empty && self.is_empty() {
+            self.note_empty(Place::Gate(index));
+        }
+        contracted
     }
 
     /// Intersects a slice, which the caller knows to exist, and with it the gates beside. The summaries wait for
@@ -65,7 +72,28 @@ impl<T: Enclosure> Tube<T> {
     /// [`narrow_slice`](Tube::narrow_slice) for a caller that narrows the two gates to the slice itself.
     #[inline]
     pub(crate) fn narrow_slice_alone(&mut self, index: usize, value: T) -> Contracted {
-        narrow(&mut self.slices[index], value, &mut self.empty_count)
+        let was_empty = self.is_empty();
+        let contracted = narrow(&mut self.slices[index], value, &mut self.empty_count);
+        if !was_empty && self.is_empty() {
+            self.note_empty(Place::Slice(index));
+        }
+        contracted
+    }
+
+    /// Remembers which constraint emptied the tube, if that has just happened; returns `contracted`.
+    #[inline]
+    pub(crate) fn blamed(&mut self, contracted: Contracted, constraint: Constraint) -> Contracted {
+        if contracted == Contracted::Empty
+            && let Some(emptied) = &mut self.first_emptied
+        {
+            emptied.constraint.get_or_insert(constraint);
+        }
+        contracted
+    }
+
+    #[cold]
+    fn note_empty(&mut self, place: Place) {
+        self.first_emptied = Some(self.empty_at(place));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::contraction::together;
 use crate::enclosure::Enclosure;
-use crate::error::TubeError;
+use crate::error::{Constraint, TubeError};
 use crate::tube::Tube;
 use shoal_interval::Interval;
 use shoal_interval::contractor::Contracted;
@@ -68,7 +68,7 @@ impl<T: Enclosure> Tube<T> {
         if contracted != Contracted::Unchanged {
             self.refresh(all);
         }
-        Ok(contracted)
+        Ok(self.blamed(contracted, Constraint::Derivative))
     }
 
     /// The same over one slice: `derivative` holds the derivative almost always between its two gates. Derivatives that
@@ -105,7 +105,7 @@ impl<T: Enclosure> Tube<T> {
         if contracted != Contracted::Unchanged {
             self.refresh(index..index + 1);
         }
-        Ok(contracted)
+        Ok(self.blamed(contracted, Constraint::Derivative))
     }
 
     /// Carries the input gate of slice `index`, which the caller knows to exist, through the slice to its output gate. The

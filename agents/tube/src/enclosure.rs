@@ -26,6 +26,9 @@ pub trait Enclosure:
     /// The innermost bounds of many sets, one pair an axis: what a tube keeps to answer questions about many slices at once.
     type Innermost: Copy + PartialEq + Debug;
 
+    /// The number of coordinates.
+    const AXES: usize;
+
     /// No value at all.
     const EMPTY: Self;
 
@@ -37,6 +40,12 @@ pub trait Enclosure:
 
     /// The number or the vector zero alone.
     fn zero() -> Self;
+
+    /// The set of one coordinate, below [`AXES`](Enclosure::AXES).
+    fn side(&self, axis: usize) -> Interval;
+
+    /// The set of the vectors with these coordinates; empty if one is.
+    fn from_sides(side: impl FnMut(usize) -> Interval) -> Self;
 
     /// Whether no value is in the set.
     fn is_empty(&self) -> bool;
@@ -119,6 +128,7 @@ impl Enclosure for Interval {
     type Point = f64;
     type Innermost = InnerBounds;
 
+    const AXES: usize = 1;
     const EMPTY: Interval = Interval::EMPTY;
     const ENTIRE: Interval = Interval::ENTIRE;
     const UNBOUNDED: InnerBounds = InnerBounds::UNBOUNDED;
@@ -126,6 +136,16 @@ impl Enclosure for Interval {
     #[inline]
     fn zero() -> Interval {
         Interval::ZERO
+    }
+
+    #[inline]
+    fn side(&self, _axis: usize) -> Interval {
+        *self
+    }
+
+    #[inline]
+    fn from_sides(mut side: impl FnMut(usize) -> Interval) -> Interval {
+        side(0)
     }
 
     #[inline]
@@ -183,6 +203,7 @@ impl<const N: usize> Enclosure for IntervalBox<N> {
     type Point = SVector<f64, N>;
     type Innermost = [InnerBounds; N];
 
+    const AXES: usize = N;
     const EMPTY: IntervalBox<N> = IntervalBox::EMPTY;
     const ENTIRE: IntervalBox<N> = IntervalBox::ENTIRE;
     const UNBOUNDED: [InnerBounds; N] = [InnerBounds::UNBOUNDED; N];
@@ -190,6 +211,16 @@ impl<const N: usize> Enclosure for IntervalBox<N> {
     #[inline]
     fn zero() -> IntervalBox<N> {
         IntervalBox::from([Interval::ZERO; N])
+    }
+
+    #[inline]
+    fn side(&self, axis: usize) -> Interval {
+        self[axis]
+    }
+
+    #[inline]
+    fn from_sides(side: impl FnMut(usize) -> Interval) -> IntervalBox<N> {
+        IntervalBox::from(std::array::from_fn(side)) & IntervalBox::ENTIRE
     }
 
     #[inline]

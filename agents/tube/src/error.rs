@@ -83,6 +83,19 @@ pub struct Emptied {
     pub place: Place,
     /// When that is, in seconds.
     pub times_s: Interval,
+    /// What the trajectory should have obeyed when nothing was left, if that is known.
+    pub constraint: Option<Constraint>,
+}
+
+impl Emptied {
+    /// The same after `count` slices were dropped at the front; `None` if it is gone with them.
+    pub(crate) fn without_front(self, count: usize) -> Option<Emptied> {
+        let place = match self.place {
+            Place::Gate(index) => Place::Gate(index.checked_sub(count)?),
+            Place::Slice(index) => Place::Slice(index.checked_sub(count)?),
+        };
+        Some(Emptied { place, ..self })
+    }
 }
 
 impl fmt::Display for Emptied {
@@ -91,6 +104,55 @@ impl fmt::Display for Emptied {
         match self.place {
             Place::Gate(index) => write!(formatter, "gate {index}, at {from_s} s, is empty"),
             Place::Slice(index) => write!(formatter, "slice {index}, from {from_s} s to {to_s} s, is empty"),
-        }
+        }?;
+        self.constraint.map_or(Ok(()), |constraint| write!(formatter, ": emptied by {constraint}"))
+    }
+}
+
+/// What a trajectory must obey: the name of what contracts tubes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Constraint {
+    /// A value at one time or over one slice.
+    Value,
+    /// A derivative.
+    Derivative,
+    /// One trajectory never above another.
+    Order,
+    /// Two trajectories that are one.
+    Equality,
+    /// A trajectory that follows another after a delay.
+    Delay,
+    /// A trajectory that repeats itself.
+    Periodicity,
+    /// A trajectory that is its own mirror image, in time or in a point.
+    Symmetry,
+    /// A value at an uncertain time.
+    Evaluation,
+    /// A trajectory after another, `x(h(t)) = y(t)`.
+    Composition,
+    /// A state equation.
+    StateEquation,
+    /// An equation between values of the same time.
+    Algebraic,
+    /// The time that sound took between two trajectories.
+    Ping,
+}
+
+impl fmt::Display for Constraint {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Constraint::Value => "a value",
+            Constraint::Derivative => "the derivative",
+            Constraint::Order => "an order",
+            Constraint::Equality => "an equality",
+            Constraint::Delay => "a delay",
+            Constraint::Periodicity => "a period",
+            Constraint::Symmetry => "a symmetry",
+            Constraint::Evaluation => "a value at an uncertain time",
+            Constraint::Composition => "a composition",
+            Constraint::StateEquation => "the state equation",
+            Constraint::Algebraic => "an algebraic constraint",
+            Constraint::Ping => "a ping",
+        })
     }
 }

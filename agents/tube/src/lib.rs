@@ -26,6 +26,7 @@
 mod arithmetic;
 mod components;
 mod contraction;
+pub mod contractor;
 mod derivative;
 mod enclosure;
 mod error;
@@ -45,7 +46,7 @@ mod tube;
 
 pub use derivative::Direction;
 pub use enclosure::{Enclosure, InnerBounds};
-pub use error::{Emptied, TubeError};
+pub use error::{Constraint, Emptied, TubeError};
 pub use shoal_interval::contractor::Contracted;
 pub use time_domain::{Place, TimeDomain};
 pub use tube::Tube;

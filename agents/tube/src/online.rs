@@ -1,7 +1,7 @@
 //! A tube that grows at one end and is forgotten at the other.
 
 use crate::enclosure::Enclosure;
-use crate::error::TubeError;
+use crate::error::{Constraint, TubeError};
 use crate::storage::push_sparingly;
 use crate::summary::Slices;
 use crate::time_domain::Place;
@@ -29,7 +29,8 @@ impl<T: Enclosure> Tube<T> {
         self.domain.append(end_s)?;
         let slice = settled(slice);
         let output_gate = settled(output_gate) & slice;
-        self.narrow_gate(self.gates.len() - 1, slice);
+        let contracted = self.narrow_gate(self.gates.len() - 1, slice);
+        self.blamed(contracted, Constraint::Value);
         push_sparingly(&mut self.slices, slice);
         push_sparingly(&mut self.gates, output_gate);
         self.empty_count += usize::from(slice.is_empty()) + usize::from(output_gate.is_empty());
@@ -45,6 +46,7 @@ impl<T: Enclosure> Tube<T> {
         let slices = self.slices.drain(..count).filter(T::is_empty).count();
         let gates = self.gates.drain(..count).filter(T::is_empty).count();
         self.empty_count -= slices + gates;
+        self.first_emptied = self.first_emptied.and_then(|emptied| emptied.without_front(count));
         self.summaries.drop_front(count);
     }
 

@@ -1,5 +1,6 @@
 //! Where at this time, where over these times.
 
+mod cones;
 mod with_derivative;
 
 use crate::enclosure::Enclosure;

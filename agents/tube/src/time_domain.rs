@@ -245,6 +245,29 @@ impl TimeDomain {
         Interval::spanning(self.border_at(index), self.border_at(index + 1))
     }
 
+    /// The times of a slice or a gate, which the caller knows to exist.
+    #[inline]
+    pub(crate) fn span_of(&self, place: Place) -> Interval {
+        match place {
+            Place::Gate(index) => exactly(self.border_at(index)),
+            Place::Slice(index) => self.span_at(index),
+        }
+    }
+
+    /// All slices, and then all gates.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Place> + use<> {
+        let count = self.slice_count();
+        (0..count).map(Place::Slice).chain((0..=count).map(Place::Gate))
+    }
+
+    /// The slice itself, or those on both sides of a gate.
+    pub(crate) fn slices_at(&self, place: Place) -> Range<usize> {
+        match place {
+            Place::Gate(index) => index.saturating_sub(1)..(index + 1).min(self.slice_count()),
+            Place::Slice(index) => index..index + 1,
+        }
+    }
+
     /// The length of slice `index`, which the caller knows to exist.
     #[inline]
     pub(crate) fn duration_at(&self, index: usize) -> Interval {

@@ -27,6 +27,8 @@ pub struct Tube<T: Enclosure> {
     pub(crate) summaries: SummaryTree<T>,
     /// How many slices and gates are empty.
     pub(crate) empty_count: usize,
+    /// The first contraction that left nothing.
+    pub(crate) first_emptied: Option<Emptied>,
 }
 
 impl<T: Enclosure> Tube<T> {
@@ -172,13 +174,36 @@ impl<T: Enclosure> Tube<T> {
         }
         for (index, gate) in self.gates.iter().enumerate() {
             if gate.is_empty() {
-                return Some(self.emptied(Place::Gate(index)));
+                return Some(self.empty_at(Place::Gate(index)));
             }
             if self.slices.get(index).is_some_and(Enclosure::is_empty) {
-                return Some(self.emptied(Place::Slice(index)));
+                return Some(self.empty_at(Place::Slice(index)));
             }
         }
         None
+    }
+
+    /// The contraction that left nothing: where it was, when, and by which constraint. `None` unless the tube
+    /// [is empty](Tube::is_empty).
+    ///
+    /// A contradiction soon spreads over the whole tube, so that [`first_empty`](Tube::first_empty) says little; this
+    /// remembers where it began. A tube that was made empty, by arithmetic for example, answers with its first empty place.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{Direction, TimeDomain, Tube};
+    ///
+    /// let speed_m_s = Tube::constant(TimeDomain::uniform(0.0, 1.0, 9)?, Interval::new(0.0, 1.0)?);
+    /// let mut depth_m = Tube::primitive(&speed_m_s, Interval::ZERO);
+    /// depth_m.contract_gate(4, &Interval::ZERO)?;
+    /// depth_m.contract_gate(7, &Interval::point(5.0)?)?;
+    /// depth_m.contract_derivative(&speed_m_s, Direction::Both)?;
+    /// let emptied = depth_m.emptied().expect("five metres in three seconds");
+    /// assert_eq!(emptied.to_string(), "gate 7, at 7 s, is empty: emptied by the derivative");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn emptied(&self) -> Option<Emptied> {
+        if self.is_empty() { self.first_emptied.or_else(|| self.first_empty()) } else { None }
     }
 
     /// The width of the widest slice; zero without slices, NaN if the tube is empty.
@@ -231,7 +256,7 @@ impl<T: Enclosure> Tube<T> {
         }
         let empty_count = slices.iter().chain(&gates).filter(|set| set.is_empty()).count();
         let summaries = SummaryTree::new(Slices { domain: &domain, values: &slices });
-        Tube { domain, slices, gates, summaries, empty_count }
+        Tube { domain, slices, gates, summaries, empty_count, first_emptied: None }
     }
 
     /// The hull of some slices.
@@ -268,12 +293,9 @@ impl<T: Enclosure> Tube<T> {
         if index < count { Ok(()) } else { Err(TubeError::NoSuchGate { index, count }) }
     }
 
-    fn emptied(&self, place: Place) -> Emptied {
-        let times_s = match place {
-            Place::Gate(index) => exactly(self.domain.border_at(index)),
-            Place::Slice(index) => self.domain.span_at(index),
-        };
-        Emptied { place, times_s }
+    pub(crate) fn empty_at(&self, place: Place) -> Emptied {
+        let times_s = self.domain.span_of(place);
+        Emptied { place, times_s, constraint: None }
     }
 }
 

@@ -5,6 +5,7 @@
 //! `x(t) ∈ slice ∩ (input gate + (t - t_i) [v]) ∩ (output gate - (t_{i+1} - t) [v])`.
 //! Source: seed 001, equations (4.5) and (5.5), from both ends of a slice.
 
+use super::cones::Cones;
 use crate::enclosure::Enclosure;
 use crate::error::TubeError;
 use crate::inversion::Components;
@@ -37,6 +38,30 @@ impl<T: Enclosure> Tube<T> {
             Place::Gate(index) => self.gates[index],
             Place::Slice(index) => self.in_cones(index, exactly(time_s), derivative.slices[index]),
         })
+    }
+
+    /// The hull of the trajectory over some times of a slice.
+    pub(crate) fn hull_in_cones(&self, index: usize, times_s: Interval, slope: T) -> T {
+        T::from_sides(|axis| self.cones(index, axis, slope).over(times_s))
+    }
+
+    /// The times of a slice at which both cones meet `values`, on all axes.
+    pub(crate) fn times_in_cones(&self, index: usize, values: T, slope: T) -> Interval {
+        (0..T::AXES).fold(self.domain.span_at(index), |times_s, axis| {
+            times_s & self.cones(index, axis, slope).times(values.side(axis))
+        })
+    }
+
+    #[inline]
+    fn cones(&self, index: usize, axis: usize, slope: T) -> Cones {
+        Cones {
+            start_s: self.domain.border_at(index),
+            end_s: self.domain.border_at(index + 1),
+            input: self.gates[index].side(axis),
+            output: self.gates[index + 1].side(axis),
+            slice: self.slices[index].side(axis),
+            slope: slope.side(axis),
+        }
     }
 
     /// What holds the trajectory over some times of a slice: the slice and the two cones.
@@ -72,7 +97,7 @@ impl Tube<Interval> {
         }
         let range = self.domain.slices_over(times_s)?;
         let end = |index: usize| {
-            self.over_cones(index, self.domain.span_at(index) & times_s, derivative.slices[index])
+            self.hull_in_cones(index, self.domain.span_at(index) & times_s, derivative.slices[index])
         };
         let (first, last) = (range.start, range.end - 1);
         let between = if first + 1 < last { self.hull_of(first + 1..last) } else { Interval::EMPTY };
@@ -174,59 +199,4 @@ impl Tube<Interval> {
         });
         debug_assert!(walked.is_continue());
     }
-
-    /// The hull of the trajectory over some times of a slice.
-    ///
-    /// The two cones bound it by two lines above and two below. Cut about where each pair of lines crosses, the hull of
-    /// the parts is the hull of the whole; wherever the cuts are, nothing is lost.
-    fn over_cones(&self, index: usize, times_s: Interval, slope: Interval) -> Interval {
-        let (start_s, end_s) = (self.domain.border_at(index), self.domain.border_at(index + 1));
-        let (input, output) = (self.gates[index], self.gates[index + 1]);
-        let crossing = |from: f64, up: f64, to: f64, down: f64| {
-            let since_start_s = (to - from - down * (end_s - start_s)) / (up - down);
-            let crossing_s = start_s + since_start_s;
-            if crossing_s.is_nan() {
-                times_s.lower()
-            } else {
-                crossing_s.clamp(times_s.lower(), times_s.upper())
-            }
-        };
-        let peak_s = crossing(input.upper(), slope.upper(), output.upper(), slope.lower());
-        let trough_s = crossing(input.lower(), slope.lower(), output.lower(), slope.upper());
-        let (one_s, other_s) = (peak_s.min(trough_s), peak_s.max(trough_s));
-        let parts = [(times_s.lower(), one_s), (one_s, other_s), (other_s, times_s.upper())];
-        parts.into_iter().fold(Interval::EMPTY, |hull, (from_s, to_s)| {
-            hull | self.in_cones(index, Interval::spanning(from_s, to_s), slope)
-        })
-    }
-
-    /// The times of a slice at which both cones meet `values`. Each of the four lines lets through one side.
-    pub(crate) fn times_in_cones(&self, index: usize, values: Interval, slope: Interval) -> Interval {
-        let span_s = self.domain.span_at(index);
-        let (input, output) = (self.gates[index], self.gates[index + 1]);
-        let values = values & self.slices[index];
-        if values.is_empty() || input.is_empty() || output.is_empty() || slope.is_empty() {
-            return Interval::EMPTY;
-        }
-        // Since the input gate: low + slope.lower() * s <= values.upper(), high + slope.upper() * s >= values.lower().
-        let since_input_s = not_above(input.lower(), slope.lower(), values.upper())
-            & not_above(-input.upper(), -slope.upper(), -values.lower());
-        let until_output_s = not_above(output.lower(), -slope.upper(), values.upper())
-            & not_above(-output.upper(), slope.lower(), -values.lower());
-        let after_input = since_input_s + span_s.lower();
-        let before_output = span_s.upper() - until_output_s;
-        span_s & after_input & before_output
-    }
-}
-
-/// All `s` for which `start + slope * s` may be at most `limit`. Lines that are not finite are no limit.
-fn not_above(start: f64, slope: f64, limit: f64) -> Interval {
-    if !start.is_finite() || !slope.is_finite() || !limit.is_finite() {
-        return Interval::ENTIRE;
-    }
-    let room = exactly(limit) - start - Interval::NON_NEGATIVE;
-    if slope == 0.0 {
-        return if room.contains(0.0) { Interval::ENTIRE } else { Interval::EMPTY };
-    }
-    room / slope
 }

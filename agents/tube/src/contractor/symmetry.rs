@@ -1,0 +1,79 @@
+//! A trajectory that is its own mirror image.
+
+use super::asynchronous::finite;
+use crate::contraction::together;
+use crate::derivative::Direction;
+use crate::enclosure::Enclosure;
+use crate::error::{Constraint, TubeError};
+use crate::time_domain::Place;
+use crate::tube::Tube;
+use shoal_interval::Interval;
+use shoal_interval::contractor::Contracted;
+
+impl<T: Enclosure> Tube<T> {
+    /// Removes every trajectory that is not symmetric in time about `axis_s` seconds: `x(tau + t) = x(tau - t)`. With the
+    /// axis zero the trajectory is even.
+    ///
+    /// Times whose mirror image is outside the domain are left alone. Minimal when borders are mirrored to borders.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{TimeDomain, Tube};
+    ///
+    /// let mut x = Tube::constant(TimeDomain::uniform(-2.0, 0.5, 8)?, Interval::ENTIRE);
+    /// x.contract_slice(7, &Interval::ONE)?;
+    /// x.contract_axial_symmetry(0.0)?;
+    /// assert_eq!(x.slice(0), Some(Interval::ONE));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the axis is not a finite time.
+    ///
+    /// Source: seed 001, proposition 4, equation (4.19).
+    pub fn contract_axial_symmetry(&mut self, axis_s: f64) -> Result<Contracted, TubeError> {
+        let twice_s = finite(axis_s)? + axis_s;
+        let contracted =
+            self.narrow_everywhere(Direction::Both, |tube, times_s| tube.looked_over(twice_s - times_s));
+        Ok(self.blamed(contracted, Constraint::Symmetry))
+    }
+
+    /// Removes every trajectory that is not its own image through a point, `centre` at `axis_s` seconds:
+    /// `x(tau + t) - c = c - x(tau - t)`, and so `x(tau) = c`. With both zero the trajectory is odd. The centre may be
+    /// known only as a set.
+    ///
+    /// Times whose image is outside the domain are left alone.
+    ///
+    /// ```
+    /// use shoal_interval::Interval;
+    /// use shoal_tube::{TimeDomain, Tube};
+    ///
+    /// let mut x = Tube::constant(TimeDomain::uniform(-2.0, 0.5, 8)?, Interval::ENTIRE);
+    /// x.contract_slice(7, &Interval::new(2.0, 3.0)?)?;
+    /// x.contract_central_symmetry(0.0, Interval::ONE)?;
+    /// assert_eq!(x.slice(0), Some(Interval::new(-1.0, 0.0)?));
+    /// assert_eq!(x.gate(4), Some(Interval::ONE));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the axis is not a finite time.
+    ///
+    /// Source: seed 001, proposition 5, equation (4.21).
+    pub fn contract_central_symmetry(&mut self, axis_s: f64, centre: T) -> Result<Contracted, TubeError> {
+        let twice_s = finite(axis_s)? + axis_s;
+        let twice = centre * (Interval::ONE + 1.0);
+        let at_axis = match self.domain.place_of(axis_s) {
+            Ok(Place::Gate(index)) => self.narrow_gate(index, centre),
+            Ok(Place::Slice(index)) if self.slices[index].is_disjoint_from(&centre) => {
+                self.empty_near(axis_s, Constraint::Symmetry);
+                Contracted::Empty
+            }
+            _ => Contracted::Unchanged,
+        };
+        let mirrored = self.narrow_everywhere(Direction::Both, |tube, times_s| {
+            Some(twice - tube.looked_over(twice_s - times_s)?)
+        });
+        Ok(self.blamed(together(at_axis, mirrored), Constraint::Symmetry))
+    }
+}

@@ -1,0 +1,98 @@
+//! A trajectory that follows another after an uncertain delay, which is contracted too.
+
+use super::asynchronous::{both_or_none, possible_times};
+use crate::contraction::together;
+use crate::derivative::Direction;
+use crate::enclosure::Enclosure;
+use crate::error::Constraint;
+use crate::time_domain::exactly;
+use crate::tube::Tube;
+use shoal_interval::Interval;
+use shoal_interval::contractor::Contracted;
+
+/// How often all gates are asked for the delay, at most.
+const PASSES: usize = 8;
+/// The share of its width that the delay must lose in a pass for another one.
+const WORTHWHILE: f64 = 0.01;
+
+/// Contracts two tubes and a delay by `x(t) = y(t - tau)`, with one unknown `tau` of `delay_s`, in seconds of any sign.
+///
+/// Each gate of one tube is looked for in the other, which leaves the delays between the first and the last time where it is
+/// found; delays that lead out of the domain stay possible. Then slices and gates of each tube keep what the other tube
+/// says over the times that the remaining delays lead to. All times are found by search, so the cost is that of
+/// `n log n` for `n` slices. When nothing is left, delay and tubes are empty.
+///
+/// ```
+/// use shoal_interval::Interval;
+/// use shoal_tube::contractor::contract_uncertain_delay;
+/// use shoal_tube::{TimeDomain, Tube};
+///
+/// // sin(t) = cos(t - pi / 2)
+/// let time = TimeDomain::uniform(0.0, 0.01, 1000)?;
+/// let mut x = Tube::from_function(time.clone(), Interval::sin);
+/// let mut y = Tube::from_function(time, Interval::cos);
+/// let mut delay_s = Interval::new(0.0, 3.0)?;
+/// contract_uncertain_delay(&mut x, &mut y, &mut delay_s);
+/// assert!(delay_s.contains(std::f64::consts::FRAC_PI_2) && delay_s.width() < 0.03);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Source: seed 001, proposition 3, equation (4.18), with the delay in an interval.
+pub fn contract_uncertain_delay<T: Enclosure>(
+    x: &mut Tube<T>,
+    y: &mut Tube<T>,
+    delay_s: &mut Interval,
+) -> Contracted {
+    let mut contracted = Contracted::Unchanged;
+    if x.is_empty() || y.is_empty() {
+        *delay_s = Interval::EMPTY;
+    }
+    for _ in 0..PASSES {
+        let before_s = *delay_s;
+        let refuted_s = contract_delay_alone(x, y, delay_s);
+        if delay_s.is_empty() {
+            x.empty_near(refuted_s.mid(), Constraint::Delay);
+            contracted = Contracted::Empty;
+            break;
+        }
+        if *delay_s != before_s {
+            contracted = Contracted::Narrowed;
+        }
+        let left = delay_s.width() / before_s.width();
+        if *delay_s == before_s || left > 1.0 - WORTHWHILE {
+            break;
+        }
+    }
+    if contracted != Contracted::Empty {
+        let delay_s = *delay_s;
+        let of_x = x.narrow_everywhere(Direction::Forward, |_, times_s| y.over(times_s - delay_s).ok());
+        let of_y = y.narrow_everywhere(Direction::Forward, |_, times_s| x.over(times_s + delay_s).ok());
+        contracted = together(contracted, together(of_x, of_y));
+    }
+    let contracted = both_or_none(x, y, contracted, Constraint::Delay);
+    if contracted == Contracted::Empty {
+        *delay_s = Interval::EMPTY;
+    }
+    contracted
+}
+
+/// Asks every gate of both tubes which delays are possible. Returns the time of the gate that leaves none, if one does.
+fn contract_delay_alone<T: Enclosure>(x: &Tube<T>, y: &Tube<T>, delay_s: &mut Interval) -> Interval {
+    for (index, &gate) in x.gates.iter().enumerate() {
+        let time_s = exactly(x.domain.border_at(index));
+        let passing_s = possible_times(y, gate, time_s - *delay_s);
+        *delay_s = *delay_s & (time_s - passing_s);
+        if delay_s.is_empty() {
+            return time_s;
+        }
+    }
+    for (index, &gate) in y.gates.iter().enumerate() {
+        let time_s = exactly(y.domain.border_at(index));
+        let passing_s = possible_times(x, gate, time_s + *delay_s);
+        *delay_s = *delay_s & (passing_s - time_s);
+        if delay_s.is_empty() {
+            return time_s;
+        }
+    }
+    Interval::EMPTY
+}
