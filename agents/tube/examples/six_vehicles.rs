@@ -14,9 +14,9 @@
 
 use nalgebra::{Vector2, Vector3};
 use pxfm::{f_cos, f_sin};
-use shoal_interval::contractor::contract_range;
 use shoal_interval::figure::{Class, Figure, figures_folder};
 use shoal_interval::{Interval, IntervalBox};
+use shoal_tube::contractor::{Moving, Ping, contract_ping};
 use shoal_tube::figure::{DrawTube, over_time};
 use shoal_tube::{Direction, TimeDomain, Tube, TubeError};
 use std::error::Error;
@@ -126,26 +126,10 @@ impl Vehicle {
         Ok(())
     }
 
-    /// Contracts the gates around `time_s`, in slice `step`, with where the vehicle was at that time, more or less.
-    fn contract_reception(
-        &mut self,
-        step: usize,
-        ping: &Ping,
-        emitter_m: &mut IntervalBox<3>,
-    ) -> Result<(), TubeError> {
-        let Some(velocity_m_s) = self.velocity_m_s.slice(step) else { return Ok(()) };
-        let time_s = ping.reception_s.mid();
-        let late_s = ping.reception_s - time_s;
-        let at_time_m = self.position_m.at_with_derivative(time_s, &self.velocity_m_s)?;
-        let mut position_m = at_time_m + velocity_m_s * late_s;
-        ping.contract(&mut position_m, emitter_m);
-        let at_time_m = at_time_m & (position_m - velocity_m_s * late_s);
-        for border in [step, step + 1] {
-            if let Some(border_s) = self.position_m.domain().border_s(border) {
-                let since_s = Interval::spanning(time_s, time_s) - border_s;
-                self.position_m.contract_gate(border, &(at_time_m - velocity_m_s * since_s))?;
-            }
-        }
+    /// Contracts where the vehicle was when it heard a ping, and where the emitter was, by (4.48).
+    fn hear(&mut self, ping: Ping, emitter: Moving<'_, 3>) -> Result<(), TubeError> {
+        let receiver = Moving { position_m: &mut self.position_m, velocity_m_s: Some(&self.velocity_m_s) };
+        contract_ping(receiver, emitter, &mut ping.clone())?;
         Ok(())
     }
 }
@@ -165,32 +149,30 @@ fn operating_area() -> IntervalBox<3> {
     ])
 }
 
-/// One ping that was heard.
-struct Ping {
+/// A ping that was heard.
+struct Heard {
     sender: usize,
     receiver: usize,
-    /// The border at which it was sent.
-    border: usize,
-    emission_s: f64,
-    reception_s: Interval,
+    ping: Ping,
 }
 
-impl Ping {
-    /// The constraint (4.48).
-    fn contract(&self, position_m: &mut IntervalBox<3>, emitter_m: &mut IntervalBox<3>) {
-        let mut sound_speed_m_s = Interval::centred(SOUND_SPEED_M_S, SOUND_SPEED_ERROR_M_S);
-        let (mut reception_s, mut emission_s) =
-            (self.reception_s, Interval::spanning(self.emission_s, self.emission_s));
-        // What is impossible comes back empty, and empties the tube.
-        let _ =
-            contract_range(position_m, emitter_m, &mut sound_speed_m_s, &mut reception_s, &mut emission_s);
+impl Heard {
+    /// The slice in which it was heard, more or less.
+    fn step(&self) -> usize {
+        (self.ping.reception_s.mid() / STEP_S) as usize
+    }
+
+    /// What the ping said: where its sender knew itself to be.
+    fn message(&self, vehicles: &[Vehicle]) -> Result<Tube<IntervalBox<3>>, TubeError> {
+        let emission_s = self.ping.emission_s.mid();
+        Tube::starting_at(emission_s, vehicles[self.sender].position_m.at(emission_s)?)
     }
 }
 
 /// All pings that are heard, in the order in which they are received.
-fn pings(time: &TimeDomain, random: &mut Random) -> Vec<Ping> {
+fn pings(time: &TimeDomain, random: &mut Random) -> Vec<Heard> {
     let mut pings = Vec::new();
-    for (border, emission_s) in time.borders_s().enumerate().step_by(STEPS_PER_PING) {
+    for emission_s in time.borders_s().step_by(STEPS_PER_PING) {
         for sender in 0..6 {
             let emitter_m = Motion::of(sender).position_m(emission_s);
             for receiver in (0..6).filter(|&receiver| receiver != sender) {
@@ -200,14 +182,18 @@ fn pings(time: &TimeDomain, random: &mut Random) -> Vec<Ping> {
                         / SOUND_SPEED_M_S
                 });
                 let read_s = emission_s + flight_s + RECEPTION_ERROR_S * random.symmetric();
-                let reception_s = Interval::centred(read_s, RECEPTION_ERROR_S);
-                if flight_s * SOUND_SPEED_M_S < REACH_M && time.place_of(reception_s.upper()).is_ok() {
-                    pings.push(Ping { sender, receiver, border, emission_s, reception_s });
+                let ping = Ping {
+                    emission_s: Interval::spanning(emission_s, emission_s),
+                    reception_s: Interval::centred(read_s, RECEPTION_ERROR_S),
+                    sound_speed_m_s: Interval::centred(SOUND_SPEED_M_S, SOUND_SPEED_ERROR_M_S),
+                };
+                if flight_s * SOUND_SPEED_M_S < REACH_M && ping.reception_s.is_subset_of(time.span()) {
+                    pings.push(Heard { sender, receiver, ping });
                 }
             }
         }
     }
-    pings.sort_by(|one, other| one.reception_s.mid().total_cmp(&other.reception_s.mid()));
+    pings.sort_by(|one, other| one.ping.reception_s.mid().total_cmp(&other.ping.reception_s.mid()));
     pings
 }
 
@@ -229,7 +215,6 @@ fn solve() -> Result<Outcome, TubeError> {
     let mut vehicles: Vec<_> =
         (0..6).map(|vehicle| Vehicle::new(&time, Motion::of(vehicle), &mut random)).collect();
     let pings = pings(&time, &mut random);
-    let step_of = |ping: &Ping| (ping.reception_s.mid() / STEP_S) as usize;
     let unknown = Tube::constant(time.clone(), operating_area());
     let mut heard_only = Vehicle {
         position_m: unknown.clone(),
@@ -238,28 +223,30 @@ fn solve() -> Result<Outcome, TubeError> {
     };
 
     let since = Instant::now();
-    let mut heard = pings.iter().peekable();
+    let mut log = pings.iter().peekable();
     for step in 0..STEPS {
         for vehicle in &mut vehicles {
             vehicle.contract_step(step, Direction::Forward)?;
         }
-        while let Some(ping) = heard.next_if(|ping| step_of(ping) == step) {
-            // What the ping said of its sender, which was its gate at that time.
-            let Some(mut emitter_m) = vehicles[ping.sender].position_m.gate(ping.border) else { continue };
-            if ping.receiver == 3 {
-                heard_only.contract_reception(step, ping, &mut emitter_m.clone())?;
+        while let Some(heard) = log.next_if(|heard| heard.step() == step) {
+            let mut message_m = heard.message(&vehicles)?;
+            if heard.receiver == 3 {
+                heard_only
+                    .hear(heard.ping, Moving { position_m: &mut message_m.clone(), velocity_m_s: None })?;
             }
-            vehicles[ping.receiver].contract_reception(step, ping, &mut emitter_m)?;
+            let emitter = Moving { position_m: &mut message_m, velocity_m_s: None };
+            vehicles[heard.receiver].hear(heard.ping, emitter)?;
         }
     }
     let online = vehicles.iter().map(|vehicle| vehicle.position_m.clone()).collect();
 
-    let mut heard = pings.iter().rev().peekable();
+    let mut log = pings.iter().rev().peekable();
     for step in (0..STEPS).rev() {
-        while let Some(ping) = heard.next_if(|ping| step_of(ping) == step) {
-            let Some(mut emitter_m) = vehicles[ping.sender].position_m.gate(ping.border) else { continue };
-            vehicles[ping.receiver].contract_reception(step, ping, &mut emitter_m)?;
-            vehicles[ping.sender].position_m.contract_gate(ping.border, &emitter_m)?;
+        while let Some(heard) = log.next_if(|heard| heard.step() == step) {
+            if let Ok([receiver, sender]) = vehicles.get_disjoint_mut([heard.receiver, heard.sender]) {
+                receiver
+                    .hear(heard.ping, Moving { position_m: &mut sender.position_m, velocity_m_s: None })?;
+            }
         }
         for vehicle in &mut vehicles {
             vehicle.contract_step(step, Direction::Backward)?;
@@ -311,7 +298,7 @@ fn draw(title: &str, tube: &Tube<IntervalBox<3>>) -> Result<Figure, Box<dyn Erro
         over_time(span_s, Interval::centred(0.0, 155.0))?.title(title).tube(&abscissa, Class::Level(0));
     // What a ping taught, where nothing carries it on to the slices beside.
     let pings = tube.domain().borders_s().zip(abscissa.gates().zip(abscissa.slices()));
-    for (time_s, (gate, slice)) in pings.filter(|(_, (gate, slice))| gate.width() < 0.8 * slice.width()) {
+    for (time_s, (gate, _)) in pings.filter(|(_, (gate, slice))| gate.width() < 0.8 * slice.width()) {
         figure = figure.segment(Vector2::new(time_s, gate.lower()), Vector2::new(time_s, gate.upper()));
     }
     Ok(figure

@@ -32,14 +32,16 @@ impl Signal {
         // The lines hold from pi / 2 to pi: for no slice that is partly outside.
         let half_pi = Interval::spanning(FRAC_PI_2, FRAC_PI_2.next_up());
         let stretch = Interval::spanning(half_pi.upper(), PI);
-        let line = |slope: f64, start: f64, elsewhere: f64| {
+        let line = |slope: f64, start: f64| {
             Tube::from_function(time.clone(), move |t| {
-                let line = (t - half_pi) * slope + start;
-                if t.is_subset_of(stretch) { line } else { Interval::spanning(elsewhere, elsewhere) }
+                if t.is_subset_of(stretch) { (t - half_pi) * slope + start } else { Interval::ENTIRE }
             })
         };
-        contract_order(&mut line(-0.7, 0.99, -1.0), &mut a)?;
-        contract_order(&mut a, &mut line(-0.1, 1.01, 1.0))?;
+        let constant = |value| Tube::constant(time.clone(), Interval::spanning(value, value));
+        contract_order(&mut constant(-1.0), &mut a)?;
+        contract_order(&mut a, &mut constant(1.0))?;
+        contract_order(&mut line(-0.7, 0.99), &mut a)?;
+        contract_order(&mut a, &mut line(-0.1, 1.01))?;
         Ok(Signal { a, b })
     }
 
@@ -59,15 +61,14 @@ impl Signal {
 
     /// Applies every contractor until nothing worth mentioning changes, and says how often that was.
     fn contract_to_fixpoint(&mut self) -> Result<usize, TubeError> {
-        let mut passes = 0;
-        loop {
+        for pass in 1.. {
             let before = self.a.volume();
             self.contract()?;
-            passes += 1;
-            if self.a.volume() > 0.9999 * before {
-                return Ok(passes);
+            if self.a.volume() >= 0.9999 * before {
+                return Ok(pass);
             }
         }
+        Ok(0)
     }
 }
 
@@ -85,7 +86,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let passes = fixpoint.contract_to_fixpoint()?;
     println!("fixpoint, {passes} passes: {:.1} ms (the seed: 55 ms)", since.elapsed().as_secs_f64() * 1e3);
 
-    for (name, signal) in [("known", &known), ("repeated", &repeated), ("once", &once), ("fixpoint", &fixpoint)] {
+    for (name, signal) in
+        [("known", &known), ("repeated", &repeated), ("once", &once), ("fixpoint", &fixpoint)]
+    {
         let (width, area) = (signal.a.width(), signal.a.volume());
         println!("{name}: widest {width:.3}, area {area:.3}, {} kB", signal.a.memory_bytes() / 1000);
     }
