@@ -61,14 +61,16 @@ impl Signal {
 
     /// Applies every contractor until nothing worth mentioning changes, and says how often that was.
     fn contract_to_fixpoint(&mut self) -> Result<usize, TubeError> {
-        for pass in 1.. {
+        let mut passes = 0;
+        loop {
             let before = self.a.volume();
             self.contract()?;
+            passes += 1;
+            // True of an empty tube too.
             if self.a.volume() >= 0.9999 * before {
-                return Ok(pass);
+                return Ok(passes);
             }
         }
-        Ok(0)
     }
 }
 
