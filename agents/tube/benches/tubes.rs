@@ -4,16 +4,20 @@
 //!
 //! `cargo bench -p shoal-tube --bench tubes [-- FILTER]`
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::hint::black_box;
 use std::time::Instant;
 
 use shoal_interval::Interval;
-use shoal_tube::{Direction, TimeDomain, Tube};
+use shoal_tube::contractor::{contract_delay, contract_order, contract_uncertain_delay};
+use shoal_tube::{Direction, TimeDomain, Tube, TubeError};
 
 /// The numbers of slices.
 const COUNTS: [usize; 3] = [1_000, 10_000, 100_000];
 /// The duration of every tube.
 const END_S: f64 = 1_000.0;
+/// How late the late tube is.
+const LATE_S: f64 = 7.0;
 /// Questions a pass asks: enough that no branch predictor learns them.
 const QUESTIONS: usize = 512;
 
@@ -24,6 +28,8 @@ fn main() {
         Bench { is_bench, filters: std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect() };
     bench.questions();
     bench.contractions();
+    bench.between_times();
+    bench.sinusoid();
     bench.memory();
 }
 
@@ -49,27 +55,27 @@ impl Bench {
         let values: Vec<Interval> =
             (0..QUESTIONS).map(|_| spanning(400.0 * random.unit(), 400.0 * random.unit())).collect();
 
-        self.ask("at", Some(300.0), &times_s, |world, &time_s| world.x_m.at(time_s));
-        self.ask("at/irregular", Some(300.0), &times_s, |world, &time_s| world.irregular_m.at(time_s));
-        self.ask("over", Some(300.0), &windows_s, |world, &window_s| world.x_m.over(window_s));
-        self.ask("over/irregular", Some(300.0), &windows_s, |world, &window_s| {
+        self.ask("at", "< 300 ns", &times_s, |world, &time_s| world.x_m.at(time_s));
+        self.ask("at/irregular", "< 300 ns", &times_s, |world, &time_s| world.irregular_m.at(time_s));
+        self.ask("over", "< 300 ns", &windows_s, |world, &window_s| world.x_m.over(window_s));
+        self.ask("over/irregular", "< 300 ns", &windows_s, |world, &window_s| {
             world.irregular_m.over(window_s)
         });
-        self.ask("invert", None, &values, |world, &value| world.x_m.invert(value));
-        self.ask("integral", None, &windows_s, |world, window_s| {
+        self.ask("invert", "", &values, |world, &value| world.x_m.invert(value));
+        self.ask("integral", "", &windows_s, |world, window_s| {
             world.x_m.integral(window_s.lower(), window_s.upper())
         });
-        self.ask("integral_between", None, &windows_s, |world, window_s| {
+        self.ask("integral_between", "", &windows_s, |world, window_s| {
             let uncertain_s = |time_s: f64| Interval::centred(time_s, 1.0) & spanning(0.0, END_S);
             world.x_m.integral_between(uncertain_s(window_s.lower()), uncertain_s(window_s.upper()))
         });
-        self.ask("append_and_drop", None, &[()], |world, ()| {
+        self.ask("append_and_drop", "", &[()], |world, ()| {
             let mut x_m = world.growing_m.borrow_mut();
             let end_s = x_m.domain().end_s();
             x_m.drop_front(1);
             x_m.append(end_s + 0.01, Interval::ONE, Interval::ONE)
         });
-        self.ask("contract_slice", None, &times_s, |world, &time_s| {
+        self.ask("contract_slice", "", &times_s, |world, &time_s| {
             let mut x_m = world.growing_m.borrow_mut();
             let index = (time_s / END_S * x_m.slice_count() as f64) as usize;
             let slice = x_m.slice(index).unwrap_or(Interval::ENTIRE);
@@ -79,27 +85,74 @@ impl Bench {
     }
 
     fn contractions(&self) {
-        self.change("contract_derivative", Per::Slice, Some(60.0), |world| {
+        self.change("contract_derivative", Per::Slice, "< 60 ns/slice", |world| {
             let mut x_m = world.unknown_m.clone();
             let since = Instant::now();
             black_box(x_m.contract_derivative(&world.speed_m_s, Direction::Both)).expect("one domain");
             elapsed_ns(since)
         });
-        self.change("primitive", Per::Slice, None, |world| {
+        self.change("primitive", Per::Slice, "", |world| {
             let since = Instant::now();
             black_box(Tube::primitive(&world.speed_m_s, Interval::ZERO));
             elapsed_ns(since)
         });
-        self.change("sum", Per::Slice, None, |world| {
+        self.change("sum", Per::Slice, "", |world| {
             let since = Instant::now();
             black_box(world.x_m.sum(&world.speed_m_s)).expect("one domain");
             elapsed_ns(since)
         });
-        self.change("sin", Per::Slice, None, |world| {
+        self.change("sin", Per::Slice, "", |world| {
             let since = Instant::now();
             black_box(world.x_m.sin());
             elapsed_ns(since)
         });
+    }
+
+    fn between_times(&self) {
+        // A window of 0.2 % of the time, in which the vehicle passes a place that is known to 0.1 m.
+        let mut random = Random(3);
+        let passages: Vec<_> = (0..QUESTIONS)
+            .map(|_| {
+                let time_s = 1.0 + (END_S - 2.0) * random.unit();
+                (Interval::centred(time_s, 0.001 * END_S), position(spanning(time_s, time_s)))
+            })
+            .collect();
+        self.change("evaluation", Per::Question, "< 50000 ns at 10000 slices", |world| {
+            let mut x_m = world.x_m.clone();
+            let since = Instant::now();
+            for &(mut time_s, mut value_m) in &passages {
+                black_box(x_m.contract_evaluation_with_derivative(
+                    &world.speed_m_s,
+                    &mut time_s,
+                    &mut value_m,
+                ))
+                .expect("inside");
+            }
+            elapsed_ns(since) / QUESTIONS as f64
+        });
+        self.change("uncertain_delay", Per::Call, "growth < 15", |world| {
+            let (mut late_m, mut early_m) = (world.late_m.clone(), world.x_m.clone());
+            let mut delay_s = spanning(0.0, 20.0);
+            let since = Instant::now();
+            black_box(contract_uncertain_delay(&mut late_m, &mut early_m, &mut delay_s));
+            assert!(delay_s.contains(LATE_S));
+            elapsed_ns(since)
+        });
+    }
+
+    /// The example `unknown_sinusoid`, beside the times that the seed prints for a processor of 3.2 GHz.
+    fn sinusoid(&self) {
+        if !self.is_asked("sinusoid") {
+            return;
+        }
+        let runs = if self.is_bench { 20 } else { 1 };
+        for (name, passes, seed_ms) in [("first_pass", 1, 7), ("fixpoint", 12, 55)] {
+            let best_ms =
+                (0..runs).map(|_| sinusoid_ms(passes).expect("one domain")).fold(f64::INFINITY, f64::min);
+            println!(
+                r#"{{"schema":"shoal.bench/1","name":"tube/sinusoid/{name}","slices":2000,"value":{best_ms:.2},"unit":"ms","seed":{seed_ms}}}"#
+            );
+        }
     }
 
     fn memory(&self) {
@@ -114,14 +167,28 @@ impl Bench {
             }
             let bytes = |tube: &Tube<Interval>| tube.memory_bytes() as f64 / count as f64;
             if self.is_asked("memory") {
-                report("memory/uniform", count, bytes(&world.x_m), "bytes/slice", Some(64.0), &mut None);
-                report("memory/appended", count, bytes(&appended), "bytes/slice", Some(64.0), &mut smaller);
+                report(
+                    "memory/uniform",
+                    count,
+                    bytes(&world.x_m),
+                    "bytes/slice",
+                    "< 64 bytes/slice",
+                    &mut None,
+                );
+                report(
+                    "memory/appended",
+                    count,
+                    bytes(&appended),
+                    "bytes/slice",
+                    "< 64 bytes/slice",
+                    &mut smaller,
+                );
             }
         }
     }
 
     /// Prints the time of one of many questions, the best pass of many.
-    fn ask<Q, R>(&self, name: &str, goal: Option<f64>, questions: &[Q], ask: impl Fn(&World, &Q) -> R) {
+    fn ask<Q, R>(&self, name: &str, goal: &str, questions: &[Q], ask: impl Fn(&World, &Q) -> R) {
         let repeats = QUESTIONS / questions.len();
         self.change(name, Per::Question, goal, |world| {
             let since = Instant::now();
@@ -135,7 +202,7 @@ impl Bench {
     }
 
     /// Prints the best of many passes; `pass` returns its nanoseconds.
-    fn change(&self, name: &str, per: Per, goal: Option<f64>, pass: impl Fn(&World) -> f64) {
+    fn change(&self, name: &str, per: Per, goal: &str, pass: impl Fn(&World) -> f64) {
         if !self.is_asked(name) {
             return;
         }
@@ -145,7 +212,7 @@ impl Bench {
             let passes = match (self.is_bench, per) {
                 (false, _) => 1,
                 (true, Per::Question) => 100,
-                (true, Per::Slice | Per::Call) => 2_000_000 / count,
+                (true, Per::Slice | Per::Call) => (1_000_000 / count).min(200),
             };
             let best_ns = (0..passes).map(|_| pass(&world)).fold(f64::INFINITY, f64::min);
             let (value, unit) = match per {
@@ -162,10 +229,33 @@ impl Bench {
     }
 }
 
+/// The milliseconds of some passes of the contractors of seed 001, section 4.3.1.
+fn sinusoid_ms(passes: usize) -> Result<f64, TubeError> {
+    let time = TimeDomain::uniform(0.0, 0.01, 2_000)?;
+    let stretch = spanning(FRAC_PI_2.next_up(), PI);
+    let line = |slope: f64, start: f64| {
+        Tube::from_function(time.clone(), move |t| {
+            if t.is_subset_of(stretch) { (t - FRAC_PI_2) * slope + start } else { Interval::ENTIRE }
+        })
+    };
+    let mut a = Tube::constant(time.clone(), spanning(-1.0, 1.0));
+    let mut b = Tube::constant(time.clone(), Interval::ENTIRE);
+    contract_order(&mut line(-0.7, 0.99), &mut a)?;
+    contract_order(&mut a, &mut line(-0.1, 1.01))?;
+    let since = Instant::now();
+    for _ in 0..passes {
+        a.contract_central_symmetry(PI, Interval::ZERO)?;
+        a.contract_period(TAU)?;
+        contract_delay(&mut b, &mut a, -FRAC_PI_2)?;
+        a.contract_derivative(&b, Direction::Both)?;
+    }
+    Ok(elapsed_ns(since) / 1e6)
+}
+
 /// One line of JSON; `smaller` is the value at a tenth of the slices, and becomes this one.
-fn report(name: &str, count: usize, value: f64, unit: &str, goal: Option<f64>, smaller: &mut Option<f64>) {
+fn report(name: &str, count: usize, value: f64, unit: &str, goal: &str, smaller: &mut Option<f64>) {
     let growth = smaller.map_or(String::new(), |smaller| format!(r#","growth":{:.2}"#, value / smaller));
-    let goal = goal.map_or(String::new(), |goal| format!(r#","goal":{goal}"#));
+    let goal = if goal.is_empty() { String::new() } else { format!(r#","goal":"{goal}""#) };
     println!(
         r#"{{"schema":"shoal.bench/1","name":"tube/{name}","slices":{count},"value":{value:.1},"unit":"{unit}"{growth}{goal}}}"#
     );
@@ -177,6 +267,7 @@ struct World {
     /// A vehicle that goes to and fro and drifts away.
     x_m: Tube<Interval>,
     speed_m_s: Tube<Interval>,
+    late_m: Tube<Interval>,
     /// The same trajectory, cut at irregular times.
     irregular_m: Tube<Interval>,
     /// Everywhere, but for one fix at the middle.
@@ -196,6 +287,7 @@ impl World {
         unknown_m.contract_gate(count / 2, &position(spanning(500.0, 500.0))).expect("a gate");
         World {
             growing_m: std::cell::RefCell::new(Tube::from_function(irregular.clone(), position)),
+            late_m: Tube::from_function(time.clone(), |time_s| position(time_s - LATE_S)),
             irregular_m: Tube::from_function(irregular, position),
             speed_m_s: Tube::from_function(time, |time_s| ((time_s * 0.1).cos() * 3.0 + 0.3).inflate(0.01)),
             x_m,
