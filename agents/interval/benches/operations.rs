@@ -90,14 +90,13 @@ impl Bench {
     /// The three beacons of seed 001, figure 2.10, at the precision of 0.05 m.
     fn set_inversion(&self, add_ns: f64) {
         let over = |lower, upper| Interval::new(lower, upper).expect("ordered");
-        let ring =
-            |x, y, lower, upper| Ring::new(Vector2::new(x, y), over(lower, upper)).expect("a finite centre");
+        let ring = |x, y, lower, upper| Ring::new(Vector2::new(x, y), over(lower, upper));
         let seen = ring(3.0, 3.0, 3.0, 4.0)
             .intersection(ring(-3.0, -1.0, 5.0, 6.0))
             .intersection(ring(-2.0, 2.0, 4.0, 5.0));
         let initial = IntervalBox::from([over(-10.0, 10.0); 2]);
         let paved = || pave(&seen, initial, &Options::new(0.05)).expect("a bounded box");
-        let separations = paved().statistics().tests as f64;
+        let separations = paved().statistics().boxes as f64;
         let name = "three_beacons/separation";
         self.report_as(name, add_ns, separations, &[()], |()| paved());
     }

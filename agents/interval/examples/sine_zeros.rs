@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let initial = IntervalBox::from([Interval::new(-1.0, 7.0)?]);
     // Between the widths 1/16, of the boxes that the seed prints, and 1/8, of their parents.
     let options = Options::new(0.1);
-    let contractor = from_fn(zeros_of_sine);
+    let contractor = from_fn(|x: IntervalBox<1>| IntervalBox::from([Interval::ZERO.sin_rev(x[0])]));
     let sine = set_inversion(|x: &IntervalBox<1>| x.map(Interval::sin), IntervalBox::from([Interval::ZERO]));
     // The set is thin: no box is inside, and the contractor says all that there is to say.
     let thin = from_test_fn(|_: &IntervalBox<1>| Membership::Undecided);
@@ -60,12 +60,4 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 fn listed(boxes: &[IntervalBox<1>]) -> String {
     boxes.iter().map(|part| part.to_string()).collect::<Vec<_>>().join(", ")
-}
-
-/// The hull of the multiples of π in an interval.
-fn zeros_of_sine(domain: IntervalBox<1>) -> IntervalBox<1> {
-    let multiples = domain[0] / Interval::PI;
-    let (first, last) = (multiples.lower().ceil(), multiples.upper().floor());
-    let zero = |multiple: f64| Interval::PI * multiple & domain[0];
-    IntervalBox::from([zero(first) | zero(last)])
 }

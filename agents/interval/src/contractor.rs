@@ -293,3 +293,6 @@ fn replace<const N: usize>(variables: [&mut Interval; N], contracted: [Interval;
     }
     Contracted::from_flags(empty, narrowed)
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,7 +5,7 @@
 //! large or small the arguments are. What can be computed exactly is not widened.
 
 mod angle;
-mod atan2;
+pub(crate) mod atan2;
 mod cancellative;
 mod corners;
 mod error_free;

@@ -107,6 +107,14 @@ impl<const N: usize> From<[Interval; N]> for IntervalBox<N> {
     }
 }
 
+/// A single interval as a box of one dimension.
+impl From<Interval> for IntervalBox<1> {
+    #[inline]
+    fn from(side: Interval) -> IntervalBox<1> {
+        IntervalBox { sides: [side] }
+    }
+}
+
 /// Panics, like any index, when there is no such axis.
 impl<const N: usize> Index<usize> for IntervalBox<N> {
     type Output = Interval;

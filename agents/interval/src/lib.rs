@@ -30,6 +30,7 @@ mod comparison;
 pub mod contractor;
 mod elementary;
 mod error;
+pub mod expression;
 pub mod figure;
 pub mod fuzzy;
 mod interval;

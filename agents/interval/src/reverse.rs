@@ -1,51 +1,46 @@
-//! Backward steps of a forward-backward contractor: what an operation's result says about its argument.
+//! Reverse operations: what an operation's result says about its argument.
 //!
-//! Source: seed 001, section 2.3.5; Benhamou et al., *Revising hull and box consistency* (HC4-Revise), 1999.
+//! `c.f_rev(x)` is the hull of the numbers of `x` whose `f` is in `c`. For an operation of two arguments, the known argument
+//! is the receiver, `b.f_rev(c, x)`, and a number of `x` stays when *some* number of `b` goes with it; the digit in a name
+//! says which argument is sought. These are the backward steps of a forward-backward contractor.
+//!
+//! No solution is ever lost, nothing is ever added to `x`, and branches are respected: of a periodic function, the lowest
+//! and the highest solution in `x` decide. A limit that is not reached is not a solution: no number of `[-1, 0]` has a
+//! positive logarithm's exponential, although the hull of those begins at zero. Where there is no solution, or where an
+//! operand is empty, the result is empty. Pass [`Interval::ENTIRE`] for `x` when nothing is known about it.
+//!
+//! Source: IEEE 1788-2015, clauses 10.5.4 and 10.6.2; seed 001, section 2.3.5; Benhamou et al., *Revising hull and box
+//! consistency* (HC4-Revise), 1999.
+
+mod atan2;
+mod exponential;
+mod inverse_trigonometry;
+mod order;
+mod powers;
+mod product;
+mod square;
+mod sum;
+mod trigonometry;
 
 use crate::interval::Interval;
 
 impl Interval {
-    /// The numbers `x` of `self` whose square is in `square`, as a hull.
-    ///
-    /// Each of the two roots is met with `self` before they are joined, so the sign of `self` is respected.
-    ///
-    /// ```
-    /// use shoal_interval::Interval;
-    ///
-    /// let x = Interval::new(-1.0, 5.0)?;
-    /// assert_eq!(x.with_square_in(Interval::new(4.0, 9.0)?), Interval::new(2.0, 3.0)?);
-    /// # Ok::<(), shoal_interval::IntervalError>(())
-    /// ```
+    /// The numbers of the set that are above `bound`, which itself only closes the hull.
     #[inline]
-    pub fn with_square_in(self, square: Interval) -> Interval {
-        let root = square.sqrt();
-        self.intersection(root).hull(self.intersection(-root))
+    fn above(self, bound: f64) -> Interval {
+        if self.upper() > bound {
+            self.intersection(Interval::from_bounds(bound, f64::INFINITY))
+        } else {
+            Interval::EMPTY
+        }
     }
 
-    /// The numbers `x` of `self` for which some `y` in `factor` gives `x * y` in `product`, as a hull.
-    ///
-    /// Unlike a division it keeps everything when both `factor` and `product` may be zero, and it drops the gap around zero
-    /// when only `factor` may.
-    ///
-    /// ```
-    /// use shoal_interval::Interval;
-    ///
-    /// let x = Interval::new(-0.1, 9.0)?;
-    /// let product = Interval::new(1.0, 2.0)?;
-    /// assert_eq!(x.with_product_in(Interval::new(-1.0, 1.0)?, product), Interval::new(1.0, 9.0)?);
-    /// assert_eq!(x.with_product_in(Interval::ZERO, Interval::ZERO), x);
-    /// # Ok::<(), shoal_interval::IntervalError>(())
-    /// ```
+    /// The numbers of the set that are below `bound`, which itself only closes the hull.
     #[inline]
-    pub fn with_product_in(self, factor: Interval, product: Interval) -> Interval {
-        if factor.contains(0.0) {
-            if product.contains(0.0) {
-                return self;
-            }
-            let above = product / factor.intersection(Interval::NON_NEGATIVE);
-            let below = product / factor.intersection(-Interval::NON_NEGATIVE);
-            return self.intersection(above).hull(self.intersection(below));
-        }
-        self.intersection(product / factor)
+    fn below(self, bound: f64) -> Interval {
+        -(-self).above(-bound)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,11 @@
 //! Arithmetic on tubes: what holds for the sets holds for the trajectories in them, slice by slice and gate by gate.
 //!
 //! Two tubes must be cut at the same times; an operation on two returns a `Result` because of that. An operation on one
-//! tube and a number or a set of numbers cannot fail and is written with the operator.
+//! tube and a number or a set of numbers cannot fail and is written with the operator. Every other function of
+//! trajectories is made by [`Tube::map`] or [`Tube::zip`] from one of intervals.
+//!
+//! Where a function has no value (the root of what is negative, a quotient by zero) the result is empty. A function
+//! that jumps makes a trajectory that jumps: its tube holds it, but no contractor that takes it as continuous may be used.
 //!
 //! Source: seed 001, section 4.2.2, equations (4.7) and (4.8).
 
@@ -102,6 +106,36 @@ of_one_trajectory! {
     sin;
     /// The cosines of the trajectory, in radians, by [`Interval::cos`].
     cos;
+    /// The tangents of the trajectory, in radians, by [`Interval::tan`]; the whole line over slices that may hold a pole.
+    tan;
+    /// The arc sines of the trajectory, in radians, by [`Interval::asin`]; empty where it has none.
+    asin;
+    /// The arc cosines of the trajectory, in radians, by [`Interval::acos`]; empty where it has none.
+    acos;
+    /// The arc tangents of the trajectory, in radians, by [`Interval::atan`].
+    atan;
+    /// The exponentials of the trajectory, by [`Interval::exp`].
+    exp;
+    /// The natural logarithms of the trajectory, by [`Interval::ln`]; empty where it has none.
+    ln;
+    /// One divided by the trajectory, by [`Interval::recip`].
+    recip;
+    /// The trajectory to a whole power, by [`Interval::powi`].
+    powi(exponent: i32);
+    /// The sign of the trajectory, -1, 0 or 1, by [`Interval::sign`].
+    sign;
+    /// The largest whole numbers not above the trajectory, by [`Interval::floor`].
+    floor;
+    /// The smallest whole numbers not below the trajectory, by [`Interval::ceil`].
+    ceil;
+    /// The trajectory rounded towards zero, by [`Interval::trunc`].
+    trunc;
+    /// The trajectory rounded to the nearest whole number, ties to the even one, by [`Interval::round_ties_even`].
+    round_ties_even;
+    /// The trajectory rounded to the nearest whole number, ties away from zero, by [`Interval::round_ties_away`].
+    round_ties_away;
+    /// The angles of the trajectory, in radians, less whole turns, by [`Interval::wrap_angle`].
+    wrap_angle;
     /// Everything within `radius` of the tube, by [`Interval::inflate`].
     inflate(radius: f64);
 }
@@ -127,10 +161,30 @@ of_two_trajectories! {
     /// The tube of this trajectory divided by another, by the rules of the interval quotient: the whole line where the
     /// divisor may pass zero.
     quotient = Interval::div;
+    /// The angles, in radians, of the vectors with this trajectory as second coordinate and `other` as first, by
+    /// [`Interval::atan2`].
+    atan2 = Interval::atan2;
+    /// This trajectory to the power of another, by [`Interval::powf`].
+    powf = Interval::powf;
     /// The smaller of the two trajectories at each time, by [`Interval::min`].
     min = Interval::min;
     /// The larger of the two trajectories at each time, by [`Interval::max`].
     max = Interval::max;
+}
+
+impl<const N: usize> Tube<IntervalBox<N>> {
+    /// The Euclidean lengths of the vectors of the trajectory, by [`IntervalBox::norm`].
+    pub fn norm(&self) -> Tube<Interval> {
+        self.map(|set| set.norm())
+    }
+
+    /// The dot products of two trajectories, by [`IntervalBox::dot`].
+    ///
+    /// # Errors
+    /// When the two tubes are cut at different times.
+    pub fn dot(&self, other: &Tube<IntervalBox<N>>) -> Result<Tube<Interval>, TubeError> {
+        self.zip(other, |own, others| own.dot(&others))
+    }
 }
 
 impl<T: Enclosure> Neg for &Tube<T> {

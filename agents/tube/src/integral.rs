@@ -94,10 +94,11 @@ impl<T: Enclosure> Tube<T> {
         Ok(before + between + after)
     }
 
-    /// The integrals between any two times of an interval, in both orders.
+    /// The integrals between any two times of an interval, in both orders: both lie somewhere after its start.
     fn integral_inside(&self, times_s: Interval) -> Result<T, TubeError> {
-        let to_any = self.integral_over(times_s.lower(), times_s.upper())?.from_start;
-        Ok(to_any - to_any)
+        let to_end = self.integral_over(times_s.lower(), times_s.upper())?.from_start;
+        let to_start = to_end;
+        Ok(to_end - to_start)
     }
 
     /// The integral over `[start_s, end_s]`, and over all parts of it that begin at its start or end at its end.

@@ -21,7 +21,34 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Source: seed 001, chapter 4.2.
+//! # Time
+//!
+//! A [`TimeDomain`] is the times at which tubes are cut. Tubes that are taken together must be cut at the same times; clones
+//! of a domain share their memory. Slices of one length take none. No contractor changes the times: only
+//! [`append`](Tube::append), [`drop_front`](Tube::drop_front) and [`refine`](Tube::refine) do, because they are asked to.
+//!
+//! # Questions
+//!
+//! | question | method | time |
+//! |---|---|---|
+//! | where at `t` | [`at`](Tube::at) | O(1) for even slices |
+//! | where over `[t]` | [`over`](Tube::over) | O(log n) |
+//! | when in `[y]`, as a hull | [`invert`](Tube::invert), [`invert_within`](Tube::invert_within) | O(log n) |
+//! | when in `[y]`, each time of its own | [`invert_components`](Tube::invert_components) | O(log n) for each |
+//! | how far between `t1` and `t2` | [`integral`](Tube::integral), [`integral_between`](Tube::integral_between) | O(log n) |
+//! | sharper, knowing the derivative | [`at_with_derivative`](Tube::at_with_derivative), [`over_with_derivative`](Tube::over_with_derivative), [`invert_with_derivative`](Tube::invert_with_derivative) | O(log n) |
+//! | is a trajectory, or a tube, inside | [`contains`](Tube::contains), [`holds`](Tube::holds), [`is_subset_of`](Tube::is_subset_of) | O(n) |
+//! | is anything left, and if not, where did it end | [`is_empty`](Tube::is_empty), [`first_empty`](Tube::first_empty) | O(1), O(n) |
+//!
+//! # What is learnt
+//!
+//! [`contract_gate`](Tube::contract_gate) and [`contract_slice`](Tube::contract_slice) take in a measurement,
+//! [`contract_derivative`](Tube::contract_derivative) carries it on. A measurement that contradicts the model leaves an
+//! empty tube: that is how a wrong model shows itself, and [`first_empty`](Tube::first_empty) says where.
+//!
+//! # Source
+//!
+//! Seed 001, chapter 4.2; seed 002, section 3.3.4.
 
 mod arithmetic;
 mod components;
@@ -32,6 +59,7 @@ mod enclosure;
 mod error;
 pub mod figure;
 mod integral;
+pub mod integration;
 mod inversion;
 mod online;
 mod query;

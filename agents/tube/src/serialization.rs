@@ -68,7 +68,7 @@ impl<'de, T: Enclosure + Deserialize<'de>> Deserialize<'de> for Tube<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shoal_interval::Interval;
+    use shoal_interval::{Interval, IntervalBox};
 
     fn over(lower: f64, upper: f64) -> Interval {
         Interval::new(lower, upper).unwrap()
@@ -86,6 +86,14 @@ mod tests {
             let text = serde_json::to_string(&tube).unwrap();
             assert_eq!(serde_json::from_str::<Tube<Interval>>(&text).unwrap(), tube, "{text}");
         }
+    }
+
+    #[test]
+    fn vectors_are_written_too() {
+        let time = TimeDomain::uniform(0.0, 1.0, 3).unwrap();
+        let position = Tube::from_function(time, |time| IntervalBox::from([time, time.sqr()]));
+        let text = serde_json::to_string(&position).unwrap();
+        assert_eq!(serde_json::from_str::<Tube<IntervalBox<2>>>(&text).unwrap(), position);
     }
 
     #[test]

@@ -138,6 +138,9 @@ mod tests {
             assert!((border_s - 0.1 - index as f64).abs() < 1e-15);
             let before = exactly(border_s) - 0.1;
             assert!(!(late.gate(index).unwrap() & before).is_empty());
+            // Beside the old border only the slices are known.
+            let exact = (exactly(index as f64) + 0.1).is_point();
+            assert_eq!(late.gate(index).unwrap().is_point(), exact);
         }
         assert!(late.domain().end_s() <= 4.1 && late.last_gate().is_subset_of(over(3.0, 4.0)));
         assert!(ramp().shifted(1e17).is_err() && ramp().shifted(f64::NAN).is_err());

@@ -233,9 +233,11 @@ fn directions() -> impl Strategy<Value = Direction> {
 fn changes() -> impl Strategy<Value = Change> {
     let step = || prop_oneof![Just(0.25), 0.001..2.0_f64];
     let wide = || (-5.0..5.0_f64, 4.0..20.0_f64).prop_map(|(mid, radius)| Interval::centred(mid, radius));
+    let any_slice =
+        || (-9.0..9.0_f64, 1.0..12.0_f64).prop_map(|(mid, radius)| Interval::centred(mid, radius));
     prop_oneof![
         2 => (step(), values(), values()).prop_map(|(step, slice, gate)| Change::Append { step, slice, gate }),
-        3 => (step(), 1..90_usize, wide()).prop_map(|(step, count, slice)| Change::AppendMany { step, count, slice }),
+        3 => (step(), 1..90_usize, any_slice()).prop_map(|(step, count, slice)| Change::AppendMany { step, count, slice }),
         2 => (0..70_usize).prop_map(Change::Drop),
         3 => (0.0..1.0_f64, wide()).prop_map(|(share, value)| Change::ContractGate { share, value }),
         3 => (0.0..1.0_f64, wide()).prop_map(|(share, value)| Change::ContractSlice { share, value }),

@@ -44,7 +44,7 @@ pub fn contract_sum(x: &mut Interval, y: &mut Interval, z: &mut Interval) -> Con
 /// Source: seed 001, section 2.3.5.
 #[inline]
 pub fn contract_product(x: &mut Interval, y: &mut Interval, z: &mut Interval) -> Contracted {
-    let contracted = [x.with_product_in(*y, *z), y.with_product_in(*x, *z), *z & (*x * *y)];
+    let contracted = [y.mul_rev(*z, *x), x.mul_rev(*z, *y), *z & (*x * *y)];
     replace([x, y, z], contracted)
 }
 
@@ -63,7 +63,7 @@ pub fn contract_product(x: &mut Interval, y: &mut Interval, z: &mut Interval) ->
 /// Source: seed 001, section 2.3.5.
 #[inline]
 pub fn contract_square(x: &mut Interval, y: &mut Interval) -> Contracted {
-    let root = x.with_square_in(*y);
+    let root = y.sqr_rev(*x);
     let contracted = [root, *y & root.sqr()];
     replace([x, y], contracted)
 }

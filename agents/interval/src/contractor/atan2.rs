@@ -1,11 +1,8 @@
 //! The minimal contractor for `angle = atan2(y, x)`, and its construction from one octant by symmetries.
 
-use super::{
-    BoxBijection, Contracted, Contractor, Permutation, Symmetry, contract_polar, quadrant::QUARTER_TURN,
-};
+use super::{BoxBijection, Contracted, Contractor, Permutation, Symmetry, contract_polar};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
-use pxfm::f_atan;
 
 /// Contracts three intervals linked by `angle = atan2(y, x)`, modulo 2π: there is an `l >= 0` with `x = l cos(angle)` and
 /// `y = l sin(angle)`.
@@ -24,7 +21,7 @@ use pxfm::f_atan;
 /// let (mut x, mut y) = (Interval::new(1.0, 4.0)?, Interval::new(-9.0, 2.0)?);
 /// let mut angle = Interval::new(6.0, 7.0)?;
 /// contract_atan2(&mut x, &mut y, &mut angle);
-/// assert_eq!(format!("{x:.2} {y:.2} {angle:.2}"), "[1.00, 4.00] [-1.16, 2.00] [6.00, 7.00]");
+/// assert_eq!(format!("{x:.2} {y:.2} {angle:.2}"), "[1.00, 4.00] [-1.17, 2.00] [6.00, 7.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -71,47 +68,44 @@ impl Atan2Seed {
     /// let atan2 = Atan2Seed.spread();
     /// let domain = [Interval::new(-4.0, -1.0)?, Interval::new(1.0, 9.0)?, Interval::new(2.0, 2.5)?];
     /// let contracted = atan2.contract(IntervalBox::from(domain));
-    /// assert_eq!(format!("{contracted:.2}"), "[-4.00, -1.00] x [1.00, 8.74] x [2.00, 2.50]");
+    /// assert_eq!(format!("{contracted:.2}"), "[-4.00, -1.00] x [1.00, 8.75] x [2.00, 2.50]");
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
     ///
     /// Source: seed 001, section 3.4, equations (3.20) to (3.29).
     pub fn spread(self) -> impl Contractor<3> + Copy {
-        let half_of_quarter = QUARTER_TURN * 0.5;
+        let half_of_quarter = Interval::QUARTER_PI;
         let in_diagonal = Permutation::swapping(0, 1).followed_by(Symmetry::axial(2, half_of_quarter));
         let quadrant = self.union(self.transformed(in_diagonal));
         let half_plane = quadrant.union(quadrant.transformed(Symmetry::negating([false, true, true])));
         let in_y_axis =
-            Symmetry::axial(2, QUARTER_TURN).followed_by(Symmetry::negating([true, false, false]));
+            Symmetry::axial(2, Interval::HALF_PI).followed_by(Symmetry::negating([true, false, false]));
         let plane = half_plane.union(half_plane.transformed(in_y_axis));
-        plane.modulo(2, QUARTER_TURN * 4.0)
+        plane.modulo(2, Interval::TWO_PI)
     }
 }
 
 impl Contractor<3> for Atan2Seed {
     fn contract(&self, domain: IntervalBox<3>) -> IntervalBox<3> {
-        let octant = Interval::from_bounds(0.0, 0.5 * QUARTER_TURN.upper());
+        let octant = Interval::from_bounds(0.0, Interval::QUARTER_PI.upper());
         let domain = domain & IntervalBox::from([Interval::NON_NEGATIVE, Interval::NON_NEGATIVE, octant]);
         if domain.is_empty() {
             return IntervalBox::EMPTY;
         }
         let [mut x, mut y, mut angle] = domain.sides();
-        // Sine and cosine are monotonic here, so their quotient is the tangent without overestimation.
-        let (sine, cosine) = angle.sin_cos();
-        let slope = (sine / cosine) & Interval::from_bounds(0.0, 1.0);
-        let possible_slope = slope.with_product_in(x, y);
-        [x, y] = [x.with_product_in(slope, y), y & (x * slope)];
+        let slope = angle.tan() & Interval::from_bounds(0.0, 1.0);
+        let possible_slope = x.mul_rev(y, slope);
+        [x, y] = [slope.mul_rev(y, x), y & (x * slope)];
         if possible_slope.is_empty() {
             return IntervalBox::EMPTY;
         }
+        // A slope that was not narrowed says nothing about the angle that it was computed from.
+        let possible_angle = possible_slope.atan();
         if possible_slope.lower() > slope.lower() {
-            let steeper = f_atan(possible_slope.lower()).next_down();
-            angle = angle & Interval::from_bounds(steeper, f64::INFINITY);
+            angle = angle & Interval::from_bounds(possible_angle.lower(), f64::INFINITY);
         }
         if possible_slope.upper() < slope.upper() {
-            let flatter =
-                if possible_slope.upper() == 0.0 { 0.0 } else { f_atan(possible_slope.upper()).next_up() };
-            angle = angle & Interval::from_bounds(f64::NEG_INFINITY, flatter);
+            angle = angle & Interval::from_bounds(f64::NEG_INFINITY, possible_angle.upper());
         }
         IntervalBox::from([x, y, angle]) & domain
     }

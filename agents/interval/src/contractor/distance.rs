@@ -25,7 +25,7 @@ use crate::set::{larger, smaller};
 /// let mut vehicle = IntervalBox::from([Interval::new(1.0, 9.0)?, Interval::new(-3.0, 3.0)?]);
 /// let mut range_m = Interval::new(4.0, 5.0)?;
 /// assert_eq!(contract_distance(&mut beacon, &mut vehicle, &mut range_m), Contracted::Narrowed);
-/// assert_eq!(format!("{vehicle:.2}"), "[2.65, 5.00] x [-3.00, 3.00]");
+/// assert_eq!(format!("{vehicle:.2}"), "[2.64, 5.00] x [-3.00, 3.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

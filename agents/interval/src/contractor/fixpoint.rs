@@ -59,7 +59,7 @@ fn shrank(old: Interval, new: Interval, ratio: f64) -> bool {
     if old == new {
         return false;
     }
-    if !old.is_bounded() || !(ratio > 0.0) {
+    if !old.is_bounded() || ratio.is_nan() || ratio <= 0.0 {
         return true;
     }
     // Not a comparison of widths: the widths of huge intervals overflow, the lost share does not.

@@ -74,7 +74,7 @@ impl<const N: usize, C: Contractor<N>> Contractor<N> for Modulo<C> {
         if domain.is_empty() || self.original.is_empty() {
             return IntervalBox::EMPTY;
         }
-        if !self.original.is_bounded() || !(self.period.lower() > 0.0) {
+        if !self.original.is_bounded() || self.period.is_empty() || self.period.lower() <= 0.0 {
             return domain;
         }
         let axis = self.axis;
@@ -95,7 +95,7 @@ impl<const N: usize, C: Contractor<N>> Contractor<N> for Modulo<C> {
             let mut moved = domain;
             moved[axis] = domain[axis] - offset;
             let mut contracted = self.contractor.contract(moved);
-            contracted[axis] = contracted[axis] + offset;
+            contracted[axis] += offset;
             hull = hull | (contracted & domain);
             count += 1.0;
         }

@@ -9,14 +9,13 @@
 
 use super::quadrant::{Piece, visit_quadrants};
 use super::{Contracted, Contractor, replace};
+use crate::elementary::atan2;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
 use crate::rounding::{
     add_down, add_up, div_down, div_up, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up,
 };
 use crate::set::{larger, smaller};
-use pxfm::f_atan2;
-use std::f64::consts::FRAC_PI_2;
 
 /// Contracts Cartesian and polar coordinates of the same point: `x = range cos(bearing)`, `y = range sin(bearing)`,
 /// `range >= 0`.
@@ -36,8 +35,8 @@ use std::f64::consts::FRAC_PI_2;
 /// let mut range = Interval::new(0.0, 5.0)?;
 /// let mut bearing = Interval::new(0.5, 3.0)?;
 /// assert_eq!(contract_polar(&mut x, &mut y, &mut range, &mut bearing), Contracted::Narrowed);
-/// assert_eq!(format!("{x:.2} {y:.2}"), "[3.00, 4.39] [1.64, 4.00]");
-/// assert_eq!(format!("{range:.2} {bearing:.3}"), "[3.42, 5.00] [0.500, 0.927]");
+/// assert_eq!(format!("{x:.2} {y:.2}"), "[3.00, 4.39] [1.63, 4.00]");
+/// assert_eq!(format!("{range:.2} {bearing:.3}"), "[3.41, 5.00] [0.500, 0.928]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -215,12 +214,12 @@ fn leg_up(hypotenuse: f64, leg: f64) -> f64 {
 
 /// The angle of the point `(x, y)` of the first quadrant, rounded down.
 fn angle_down(y: f64, x: f64) -> f64 {
-    f_atan2(y, x).next_down().max(0.0)
+    if y == 0.0 { 0.0 } else { atan2::angle_down(y, x) }
 }
 
 /// The angle of the point `(x, y)` of the first quadrant, rounded up.
 fn angle_up(y: f64, x: f64) -> f64 {
-    if y == 0.0 { 0.0 } else { f_atan2(y, x).next_up().min(FRAC_PI_2.next_up()) }
+    if y == 0.0 { 0.0 } else { atan2::angle_up(y, x) }
 }
 
 /// `x = range cos(bearing)`, `y = range sin(bearing)` over the box of `x`, `y`, `range`, `bearing`, by

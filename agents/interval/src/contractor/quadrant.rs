@@ -11,9 +11,6 @@ use std::f64::consts::FRAC_PI_2;
 /// Up to this size, quarter turns are counted; half of the significand is left for the fraction.
 const ANGLES_COUNTED: f64 = (1_u64 << 40) as f64;
 
-/// The number π/2, between two neighbouring `f64`.
-pub(super) const QUARTER_TURN: Interval = Interval::from_bounds(FRAC_PI_2, FRAC_PI_2.next_up());
-
 /// A direction in the first quadrant, its cosine and its sine enclosed; none is negative.
 #[derive(Clone, Copy)]
 pub(super) struct Ray {
@@ -85,14 +82,14 @@ impl Piece {
     #[inline]
     pub(super) fn angles(&self, from: Option<f64>, to: Option<f64>) -> Interval {
         let Some(quarters) = self.quarters else { return Interval::ENTIRE };
-        let below = QUARTER_TURN * Interval::from_bounds(quarters, quarters);
+        let below = Interval::HALF_PI * Interval::from_bounds(quarters, quarters);
         let lower = match (from, self.lower) {
             (None, Some(bound)) => bound,
             (from, _) => add_down(below.lower(), from.unwrap_or(0.0)),
         };
         let upper = match (to, self.upper) {
             (None, Some(bound)) => bound,
-            (to, _) => add_up(below.upper(), to.unwrap_or(QUARTER_TURN.upper())),
+            (to, _) => add_up(below.upper(), to.unwrap_or(Interval::HALF_PI.upper())),
         };
         if lower <= upper { Interval::from_bounds(lower, upper) } else { Interval::EMPTY }
     }

@@ -20,8 +20,8 @@ use crate::interval_box::IntervalBox;
 /// let mut reception = Interval::new(10.0, 10.2)?;
 /// let mut emission = Interval::point(9.9)?;
 /// assert!(contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission));
-/// assert_eq!(format!("{:.3}", position[0]), "[150.000, 200.000]");
-/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.033]");
+/// assert_eq!(format!("{:.3}", position[0]), "[149.999, 200.000]");
+/// assert_eq!(format!("{reception:.3}"), "[10.000, 10.034]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -42,8 +42,8 @@ pub fn contract_range<const N: usize>(
 
     // What the range has not lost cannot be missing from what it was computed of.
     if !empty && range != travelled {
-        let possible_delay = delay.with_product_in(*sound_speed, range);
-        *sound_speed = sound_speed.with_product_in(delay, range);
+        let possible_delay = sound_speed.mul_rev(range, delay);
+        *sound_speed = delay.mul_rev(range, *sound_speed);
         if possible_delay != delay {
             let possible_reception = *reception & (*emission + possible_delay);
             *emission = *emission & (*reception - possible_delay);

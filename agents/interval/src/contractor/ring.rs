@@ -14,7 +14,7 @@ use crate::interval_box::IntervalBox;
 /// let beacon = IntervalBox::from([Interval::ZERO, Interval::ZERO]);
 /// let ring = Ring::new(beacon, Interval::new(4.0, 5.0)?);
 /// let right = IntervalBox::from([Interval::new(0.0, 9.0)?, Interval::new(-3.0, 0.0)?]);
-/// assert_eq!(format!("{:.2}", ring.contract(right)), "[2.65, 5.00] x [-3.00, 0.00]");
+/// assert_eq!(format!("{:.2}", ring.contract(right)), "[2.64, 5.00] x [-3.00, 0.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

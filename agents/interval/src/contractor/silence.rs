@@ -4,6 +4,7 @@ use super::rotation::contract_linear;
 use super::{Contractor, Wall};
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
+use std::f64::consts::FRAC_PI_2;
 
 /// The positions that a silence does not rule out: a ping that hits a wall at a right angle is always echoed, so where a
 /// ping was silent, no wall was hit at a right angle.
@@ -65,7 +66,7 @@ impl Silence {
 /// Whether every direction of `bearing` looks at the front of the wall within the tolerance of a right angle.
 fn faces(wall: Wall, bearing: Interval, tolerance_rad: f64) -> bool {
     let Ok(tolerance) = Interval::new(0.0, tolerance_rad) else { return false };
-    if bearing.is_empty() || tolerance.upper() > 1.5707963 {
+    if bearing.is_empty() || tolerance.upper() > FRAC_PI_2 {
         return false;
     }
     let (sine, cosine) = bearing.sin_cos();

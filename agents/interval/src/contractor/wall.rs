@@ -98,9 +98,7 @@ impl Wall {
         let share = along
             .iter()
             .zip((hit - start).iter())
-            .fold(Interval::from_bounds(0.0, 1.0), |share, (&along, &reached)| {
-                share.with_product_in(along, reached)
-            });
+            .fold(Interval::from_bounds(0.0, 1.0), |share, (&along, &reached)| along.mul_rev(reached, share));
         hit = hit & (start + along * share);
         *position = *position & (hit - ray);
 
@@ -115,9 +113,9 @@ impl Wall {
         from(start, [sine, -cosine], Interval::NON_NEGATIVE, position);
         from(end, [-sine, cosine], Interval::NON_NEGATIVE, position);
         let facing = (cosine * along[1] - sine * along[0]) & Interval::NON_NEGATIVE;
-        let height =
-            from(start, [along[1], -along[0]], *distance * facing & Interval::NON_NEGATIVE, position);
-        *distance = distance.with_product_in(facing, height);
+        let in_front = (*distance * facing) & Interval::NON_NEGATIVE;
+        let height = from(start, [along[1], -along[0]], in_front, position);
+        *distance = facing.mul_rev(height, *distance);
         !(position.is_empty() || bearing.is_empty() || distance.is_empty())
     }
 

@@ -16,7 +16,7 @@ use crate::interval_box::IntervalBox;
 /// use shoal_interval::{Interval, IntervalBox};
 ///
 /// let near = Wall::new(Vector2::new(2.0, -5.0), Vector2::new(2.0, 5.0));
-/// let hidden = Wall::new(Vector2::new(9.0, -5.0), Vector2::new(9.0, 5.0));
+/// let hidden = Wall::new(Vector2::new(4.0, -5.0), Vector2::new(4.0, 5.0));
 /// let walls = [near, hidden];
 /// let seen = WallRange::new(&walls, Interval::ZERO, Interval::new(3.0, 3.5)?);
 /// let room = IntervalBox::from([Interval::new(-5.0, 1.9)?, Interval::new(-1.0, 1.0)?]);

@@ -66,7 +66,7 @@ fn angles_of_axis(left: f64, right: f64) -> Interval {
 
 /// The angle, rounded down, of one point with a `y` that is not negative, or its limit; not of the origin.
 #[inline]
-fn angle_down(y: f64, x: f64) -> f64 {
+pub(crate) fn angle_down(y: f64, x: f64) -> f64 {
     match known_angle(y, x) {
         Some(angle) => angle.lower(),
         None => below(nearest_angle(y, x), 0.0),
@@ -75,7 +75,7 @@ fn angle_down(y: f64, x: f64) -> f64 {
 
 /// As [`angle_down`], rounded up.
 #[inline]
-fn angle_up(y: f64, x: f64) -> f64 {
+pub(crate) fn angle_up(y: f64, x: f64) -> f64 {
     match known_angle(y, x) {
         Some(angle) => angle.upper(),
         None => above(nearest_angle(y, x), Interval::PI.upper()),

@@ -45,10 +45,8 @@ impl<const N: usize> HalfSpace<N> {
             let sum = others.fold(Interval::ZERO, |sum, product| sum + product);
             let at_most = Interval::spanning(sign * self.offset, sign * self.offset) - sum;
             let allowed = at_most + Interval::from_bounds(f64::NEG_INFINITY, 0.0);
-            left[axis] = domain[axis].with_product_in(
-                Interval::spanning(sign * self.normal[axis], sign * self.normal[axis]),
-                allowed,
-            );
+            let factor = sign * self.normal[axis];
+            left[axis] = Interval::spanning(factor, factor).mul_rev(allowed, domain[axis]);
             if left[axis].is_empty() {
                 return IntervalBox::EMPTY;
             }

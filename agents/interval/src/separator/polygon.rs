@@ -149,8 +149,8 @@ fn contract_segment(from: &Vector2<f64>, to: &Vector2<f64>, domain: &IntervalBox
     let start = |axis: usize| Interval::spanning(from[axis], from[axis]);
     let span = |axis: usize| Interval::spanning(to[axis], to[axis]) - start(axis);
     let mut share = Interval::from_bounds(0.0, 1.0);
-    for axis in 0..2 {
-        share = share.with_product_in(span(axis), sides[axis] - start(axis));
+    for (axis, &side) in sides.iter().enumerate() {
+        share = span(axis).mul_rev(side - start(axis), share);
     }
     let contract = |axis: usize| sides[axis] & (start(axis) + share * span(axis));
     IntervalBox::from([contract(0), contract(1)]) & *domain

@@ -79,7 +79,7 @@ impl<T: Enclosure> SummaryTree<T> {
         let end = self.dropped + self.count;
         for level in 0.. {
             let span = 1 << span_bits(level);
-            if end % span != 0 || end < self.dropped + span {
+            if !end.is_multiple_of(span) || end < self.dropped + span {
                 break;
             }
             let number = (end - span) >> span_bits(level);
@@ -151,9 +151,9 @@ impl<T: Enclosure> SummaryTree<T> {
                     (length, Part::Slices(at - self.dropped..at - self.dropped + length))
                 }
             };
-            match visit(part) {
-                Step::Stop(answer) => return ControlFlow::Break(answer),
-                Step::Into if level.is_some() => levels = level.unwrap_or(0),
+            match (visit(part), level) {
+                (Step::Stop(answer), _) => return ControlFlow::Break(answer),
+                (Step::Into, Some(level)) => levels = level,
                 _ => {
                     at += length;
                     levels = self.levels.len();
@@ -183,9 +183,9 @@ impl<T: Enclosure> SummaryTree<T> {
                     (length, Part::Slices(end - length - self.dropped..end - self.dropped))
                 }
             };
-            match visit(part) {
-                Step::Stop(answer) => return ControlFlow::Break(answer),
-                Step::Into if level.is_some() => levels = level.unwrap_or(0),
+            match (visit(part), level) {
+                (Step::Stop(answer), _) => return ControlFlow::Break(answer),
+                (Step::Into, Some(level)) => levels = level,
                 _ => {
                     end -= length;
                     levels = self.levels.len();

@@ -30,7 +30,7 @@ proptest! {
     #[test]
     fn no_point_is_lost(x in -9.0..9.0_f64, y in -9.0..9.0_f64, turns in -5_i32..5, widths in prop::array::uniform3((0.0..9.0_f64, 0.0..1.0_f64))) {
         let around = |truth: f64, (width, share): (f64, f64)| over(truth - share * width, truth + (1.0 - share) * width);
-        let angle = Interval::spanning(pxfm::f_atan2(y, x).next_down(), pxfm::f_atan2(y, x).next_up()) + QUARTER_TURN * f64::from(4 * turns);
+        let angle = Interval::spanning(pxfm::f_atan2(y, x).next_down(), pxfm::f_atan2(y, x).next_up()) + Interval::HALF_PI * f64::from(4 * turns);
         let domain = IntervalBox::from([around(x, widths[0]), around(y, widths[1]), angle | around(angle.mid(), widths[2])]);
         for contracted in [Atan2.contract(domain), Atan2Seed.spread().contract(domain)] {
             prop_assert!(contracted.is_subset_of(&domain));
@@ -57,10 +57,10 @@ fn axes_belong_to_both_of_their_quadrants() {
     for contractor in [&Atan2 as &dyn Contractor<3>, &Atan2Seed.spread()] {
         let on_negative_x = IntervalBox::from([over(-2.0, -1.0), Interval::ZERO, over(-4.0, 4.0)]);
         let angle = contractor.contract(on_negative_x)[2];
-        let half_turn = 2.0 * QUARTER_TURN.lower();
+        let half_turn = 2.0 * Interval::HALF_PI.lower();
         assert!((angle.upper() - half_turn).abs() < 1e-14 && (angle.lower() + half_turn).abs() < 1e-14);
         let on_y = IntervalBox::from([Interval::ZERO, over(1.0, 2.0), over(-4.0, 4.0)]);
-        assert!((contractor.contract(on_y)[2].mid() - QUARTER_TURN.lower()).abs() < 1e-14);
+        assert!((contractor.contract(on_y)[2].mid() - Interval::HALF_PI.lower()).abs() < 1e-14);
         let origin = IntervalBox::from([Interval::ZERO, Interval::ZERO, over(-4.0, 4.0)]);
         assert!(
             contractor.contract(origin).is_subset_of(&origin) && contractor.contract(origin)[2].width() > 7.9

@@ -1,10 +1,9 @@
 //! Polar coordinates: nothing lost, and each bound that is left belongs to a solution.
 
 use super::*;
-use crate::contractor::quadrant::QUARTER_TURN;
 use crate::strategies::interval_with_members;
 use proptest::prelude::*;
-use pxfm::f_sincos;
+use pxfm::{f_atan2, f_sincos};
 
 fn over(lower: f64, upper: f64) -> Interval {
     Interval::new(lower, upper).unwrap()
@@ -204,7 +203,7 @@ fn full_circles_and_many_turns() {
     // Only the bearing π/2, in each of many turns.
     let up = |bearing| IntervalBox::from([Interval::ZERO, over(1.0, 2.0), over(0.0, 9.0), bearing]);
     let turned = Polar.contract(up(over(0.0, 100.0)))[3];
-    let quarter = QUARTER_TURN.lower();
+    let quarter = Interval::HALF_PI.lower();
     assert!(
         (turned.lower() - quarter).abs() < 1e-15 && (turned.upper() - 61.0 * quarter).abs() < 1e-13,
         "{turned:?}"
