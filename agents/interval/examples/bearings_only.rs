@@ -18,19 +18,26 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     let separators = bearings.map(|(beacon, bearing)| seen_from(beacon, bearing));
     let initial = IntervalBox::from([Interval::new(-10.0, 10.0)?; 2]);
-    for (outliers, file) in [(0, "3_6_bearings"), (1, "3_7a_bearings_relaxed"), (2, "3_7b_bearings_relaxed")]
-    {
-        let paving = pave(&q_intersection(separators, outliers), initial, &Options::new(0.05))?;
+    let figures = [
+        (1, 0, "3_6a_one_bearing"),
+        (2, 0, "3_6b_two_bearings"),
+        (3, 0, "3_6c_three_bearings"),
+        (3, 1, "3_7a_bearings_relaxed"),
+        (3, 2, "3_7b_bearings_relaxed"),
+    ];
+    for (taken, outliers, file) in figures {
+        let seen = q_intersection(&separators[..taken], outliers);
+        let paving = pave(&seen, initial, &Options::new(0.05))?;
         println!(
-            "{outliers} outliers: area between {:.4} and {:.4} m2 in {} parts, {} bisections",
+            "{taken} bearings, {outliers} outliers: area between {:.4} and {:.4} m2 in {} parts, {} bisections",
             paving.inner_volume().lower(),
             paving.outer_volume().upper(),
             paving.parts(),
             paving.statistics().bisections,
         );
-        let title = format!("Three bearings, {outliers} of them may be wrong");
+        let title = format!("{taken} bearings, of which {outliers} may be wrong");
         let mut figure = Figure::new(initial)?.title(&title).paving(&paving).axes("x (m)", "y (m)");
-        for (beacon, bearing) in bearings {
+        for &(beacon, bearing) in &bearings[..taken] {
             for side in [bearing.lower(), bearing.upper()] {
                 let (sine, cosine) = pxfm::f_sincos(side % TAU);
                 figure = figure.segment(beacon, beacon + 40.0 * Vector2::new(cosine, sine));

@@ -66,6 +66,7 @@ impl<T: Enclosure> Tube<T> {
         let slice = self.slices[index];
         let of_input = self.narrow_gate(index, slice);
         let of_output = self.narrow_gate(index + 1, slice);
+        debug_assert!(self.gates_are_inside(index));
         together(together(of_slice, of_input), of_output)
     }
 
@@ -94,6 +95,11 @@ impl<T: Enclosure> Tube<T> {
     #[cold]
     fn note_empty(&mut self, place: Place) {
         self.first_emptied = Some(self.empty_at(place));
+    }
+
+    /// What must always be true of a slice.
+    pub(crate) fn gates_are_inside(&self, index: usize) -> bool {
+        self.gates.range(index..index + 2).all(|gate| gate.is_subset_of(&self.slices[index]))
     }
 }
 

@@ -118,6 +118,7 @@ impl<T: Enclosure> Tube<T> {
         let slice = self.slices[index];
         let of_input = self.narrow_gate(index, slice);
         let of_output = self.narrow_gate(index + 1, (input_gate + travel.across) & slice);
+        debug_assert!(self.gates_are_inside(index));
         together(of_slice, together(of_input, of_output))
     }
 
@@ -130,6 +131,7 @@ impl<T: Enclosure> Tube<T> {
         let slice = self.slices[index];
         let of_output = self.narrow_gate(index + 1, slice);
         let of_input = self.narrow_gate(index, (output_gate - travel.across) & slice);
+        debug_assert!(self.gates_are_inside(index));
         together(of_slice, together(of_input, of_output))
     }
 }

@@ -35,6 +35,7 @@ impl<T: Enclosure> Tube<T> {
         push_sparingly(&mut self.gates, output_gate);
         self.empty_count += usize::from(slice.is_empty()) + usize::from(output_gate.is_empty());
         self.summaries.append(Slices { domain: &self.domain, values: &self.slices });
+        debug_assert!(self.gates_are_inside(self.slice_count() - 1));
         Ok(())
     }
 

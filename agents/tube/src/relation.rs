@@ -30,14 +30,19 @@ impl<T: Enclosure> Tube<T> {
         Ok(self.is_empty() || self.all_sets(other, T::is_interior_of))
     }
 
-    /// The smallest tube that holds both.
+    /// The smallest tube that holds both; one that is empty anywhere holds no trajectory, and adds none.
     ///
     /// # Errors
     /// When the two tubes are cut at different times.
     ///
     /// Source: seed 001, equation (4.9).
     pub fn hull(&self, other: &Tube<T>) -> Result<Tube<T>, TubeError> {
-        self.zip(other, |own, others| own | others)
+        self.check_same_domain(other)?;
+        match (self.is_empty(), other.is_empty()) {
+            (true, _) => Ok(other.clone()),
+            (_, true) => Ok(self.clone()),
+            _ => self.zip(other, |own, others| own | others),
+        }
     }
 
     /// The trajectories that are in both; empty where they contradict each other.
@@ -164,6 +169,16 @@ mod tests {
         assert_eq!(tube.contains(|t| t.sqr() + t), Membership::Outside);
         assert_eq!(parabola(0.0).contains(|t| t.sqr().inflate(1e-9)), Membership::Undecided);
         assert_eq!(tube.contains(|_| Interval::EMPTY), Membership::Outside);
+    }
+
+    #[test]
+    fn what_is_empty_somewhere_adds_nothing() {
+        let mut impossible = parabola(9.0);
+        impossible.contract_gate(3, &Interval::EMPTY).unwrap();
+        assert_eq!(impossible.hull(&parabola(0.5)), Ok(parabola(0.5)));
+        assert_eq!(parabola(0.5).hull(&impossible), Ok(parabola(0.5)));
+        assert_eq!(impossible.is_subset_of(&parabola(0.0)), Ok(true));
+        assert!(parabola(0.5).intersection(&impossible).unwrap().is_empty());
     }
 
     #[test]

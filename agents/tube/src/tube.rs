@@ -256,7 +256,9 @@ impl<T: Enclosure> Tube<T> {
         }
         let empty_count = slices.iter().chain(&gates).filter(|set| set.is_empty()).count();
         let summaries = SummaryTree::new(Slices { domain: &domain, values: &slices });
-        Tube { domain, slices, gates, summaries, empty_count, first_emptied: None }
+        let tube = Tube { domain, slices, gates, summaries, empty_count, first_emptied: None };
+        debug_assert!((0..tube.slice_count()).all(|index| tube.gates_are_inside(index)));
+        tube
     }
 
     /// The hull of some slices.

@@ -29,7 +29,7 @@ type OursOf = fn(Ours, Ours) -> Ours;
 type TheirsOf = fn(Theirs, Theirs) -> Theirs;
 
 /// Name, how many times as fast we mean to be, and both.
-fn operations() -> [(&'static str, f64, OursOf, TheirsOf); 8] {
+fn operations() -> [(&'static str, f64, OursOf, TheirsOf); 14] {
     [
         ("add", 1.0, |x, y| x + y, |x, y| x + y),
         ("sub", 1.0, |x, y| x - y, |x, y| x - y),
@@ -39,6 +39,12 @@ fn operations() -> [(&'static str, f64, OursOf, TheirsOf); 8] {
         ("sqrt", 1.0, |x, _| x.sqrt(), |x, _| x.sqrt()),
         ("sin", 30.0, |x, _| x.sin(), |x, _| x.sin()),
         ("cos", 30.0, |x, _| x.cos(), |x, _| x.cos()),
+        ("atan2", 30.0, |x, y| y.atan2(x), |x, y| y.atan2(x)),
+        ("tan", 1.0, |x, _| x.tan(), |x, _| x.tan()),
+        ("atan", 1.0, |x, _| x.atan(), |x, _| x.atan()),
+        ("exp", 1.0, |x, _| x.exp(), |x, _| x.exp()),
+        ("ln", 1.0, |x, _| x.ln(), |x, _| x.ln()),
+        ("powi", 1.0, |x, _| x.powi(5), |x, _| x.powi(5)),
     ]
 }
 

@@ -37,7 +37,7 @@ impl Interval {
     ///
     /// let across_m = Interval::new(3.0, 5.0)?;
     /// let along_m = across_m.atan2_rev2(Interval::new(1.0, 2.0)?, Interval::ENTIRE);
-    /// assert_eq!(format!("{along_m:.3}"), "[-2.288, 3.210]");
+    /// assert_eq!(format!("{along_m:.3}"), "[-2.289, 3.211]");
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
     ///

@@ -147,7 +147,7 @@ proptest! {
     #[test]
     fn both_quotients(factor in argument(), other_factor in argument(), solution in argument(), other in argument()) {
         let b = Interval::spanning(factor, other_factor);
-        let c = point(factor) * point(solution) | point(other);
+        let c = (point(factor) * point(solution)) | point(other);
         let (below, above) = b.mul_rev_to_pair(c);
         prop_assert!(below.contains(solution) || above.contains(solution));
         prop_assert!(above.is_empty() || below.upper() <= above.lower());

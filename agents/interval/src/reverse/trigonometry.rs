@@ -29,7 +29,7 @@ impl Interval {
     /// use shoal_interval::Interval;
     ///
     /// let solutions = Interval::ZERO.sin_rev(Interval::new(1.0, 8.0)?);
-    /// assert_eq!(format!("{solutions:.4}"), "[3.1416, 6.2832]");
+    /// assert_eq!(format!("{solutions:.4}"), "[3.1415, 6.2832]");
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
     ///
@@ -71,7 +71,7 @@ impl Interval {
     /// use shoal_interval::Interval;
     ///
     /// let solutions = Interval::new(0.0, 1.0)?.tan_rev(Interval::new(1.0, 4.0)?);
-    /// assert_eq!(format!("{solutions:.4}"), "[3.1416, 3.9270]");
+    /// assert_eq!(format!("{solutions:.4}"), "[3.1415, 3.9270]");
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
     ///
@@ -91,7 +91,7 @@ impl Interval {
     ///
     /// let heading_rad = Interval::new(-0.5, 0.5)?;
     /// let turned_rad = heading_rad.wrap_angle_rev(Interval::new(4.0, 9.0)?);
-    /// assert_eq!(format!("{turned_rad:.4}"), "[5.7832, 6.7832]");
+    /// assert_eq!(format!("{turned_rad:.4}"), "[5.7831, 6.7832]");
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
     pub fn wrap_angle_rev(self, x: Interval) -> Interval {

@@ -19,8 +19,7 @@ pub(super) fn enclosure<const N: usize, E: Evolution<N> + ?Sized>(
     within_s: Interval,
     start: &IntervalBox<N>,
 ) -> Option<IntervalBox<N>> {
-    let reached =
-        |states: &IntervalBox<N>| *start + evolution.velocity(times_s, states) * within_s;
+    let reached = |states: &IntervalBox<N>| *start + evolution.velocity(times_s, states) * within_s;
     let mut guess = reached(start);
     for _ in 0..ATTEMPTS {
         let guessed = inflated(start, &guess);

@@ -31,7 +31,9 @@ impl Default for Steps {
 
 /// No bounded enclosure of the solutions was found: they may leave every bound within the slice, or the slice is too long.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("the solutions may be unbounded in slice {slice}, from {from_s} s to {to_s} s; shorter slices or more steps may help")]
+#[error(
+    "the solutions may be unbounded in slice {slice}, from {from_s} s to {to_s} s; shorter slices or more steps may help"
+)]
 pub struct Diverged {
     /// The index of the slice.
     pub slice: usize,

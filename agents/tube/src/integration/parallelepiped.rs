@@ -57,8 +57,7 @@ impl<const N: usize> Parallelepiped<N> {
         let axes = IntervalMatrix::from(axes_along(&sides).map(|row| row.map(exactly)));
         let inverse = inverse(&axes)?;
         let centre = point(centre_image.mid());
-        let coordinates =
-            (inverse * turned) * self.coordinates + inverse * (*centre_image - centre);
+        let coordinates = (inverse * turned) * self.coordinates + inverse * (*centre_image - centre);
         (!coordinates.is_empty() && coordinates.is_bounded()).then_some(Parallelepiped {
             centre,
             axes,

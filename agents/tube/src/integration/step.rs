@@ -46,7 +46,10 @@ pub(super) struct Span {
 impl Span {
     pub(super) fn new(start_s: f64, end_s: f64) -> Span {
         let start = Interval::spanning(start_s, start_s);
-        Span { times_s: Interval::spanning(start_s, end_s), length_s: Interval::spanning(end_s, end_s) - start }
+        Span {
+            times_s: Interval::spanning(start_s, end_s),
+            length_s: Interval::spanning(end_s, end_s) - start,
+        }
     }
 
     fn within_s(&self) -> Interval {
@@ -54,8 +57,7 @@ impl Span {
     }
 
     fn start_s(&self) -> Interval {
-        let start_s =
-            if self.length_s.upper() > 0.0 { self.times_s.lower() } else { self.times_s.upper() };
+        let start_s = if self.length_s.upper() > 0.0 { self.times_s.lower() } else { self.times_s.upper() };
         Interval::spanning(start_s, start_s)
     }
 }

@@ -43,9 +43,10 @@ fn runge_kutta<const N: usize>(
 
 /// Whether a tube holds the states at its gates up to the error of the truth, and so in the slices beside.
 fn holds_all<const N: usize>(tube: &Tube<IntervalBox<N>>, truth: &[SVector<f64, N>]) -> bool {
-    let gates = tube.gates().zip(truth).all(|(gate, state)| {
-        gate.inflate(1e-9 * (1.0 + state.amax())).contains(state)
-    });
+    let gates = tube
+        .gates()
+        .zip(truth)
+        .all(|(gate, state)| gate.inflate(1e-9 * (1.0 + state.amax())).contains(state));
     let slices = tube.slices().zip(truth.windows(2)).all(|(slice, states)| {
         let slice = slice.inflate(1e-9 * (1.0 + states[0].amax()));
         slice.contains(&states[0]) && slice.contains(&states[1])
@@ -118,7 +119,8 @@ fn predators_and_prey() {
     let time = TimeDomain::uniform(0.0, 0.01, 1000).unwrap();
     let radius = 1e-3;
     let tube =
-        Tube::solution(time, &wild, IntervalBox::centred(&start, radius), Steps { least: 4, most: 64 }).unwrap();
+        Tube::solution(time, &wild, IntervalBox::centred(&start, radius), Steps { least: 4, most: 64 })
+            .unwrap();
     for corner in IntervalBox::centred(&start, 0.99 * radius).corners().chain([start]) {
         assert!(holds_all(&tube, &runge_kutta(field, corner, 0.01, 1000)));
     }
