@@ -26,6 +26,7 @@ fn main() {
     let is_bench = std::env::args().any(|argument| argument == "--bench");
     let bench =
         Bench { is_bench, filters: std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect() };
+    bench.addition();
     bench.questions();
     bench.contractions();
     bench.between_times();
@@ -47,6 +48,25 @@ enum Per {
 }
 
 impl Bench {
+    /// One addition of intervals, to hold the other times against on this machine.
+    fn addition(&self) {
+        let mut random = Random(4);
+        let operands: Vec<Interval> =
+            (0..QUESTIONS).map(|_| spanning(random.unit(), random.unit() - 1.0)).collect();
+        let passes = if self.is_bench { 1_000 } else { 1 };
+        let pass = |_| {
+            let since = Instant::now();
+            for &operand in &operands {
+                black_box(black_box(operand) + operand);
+            }
+            elapsed_ns(since) / QUESTIONS as f64
+        };
+        let best_ns = (0..passes).map(pass).fold(f64::INFINITY, f64::min);
+        println!(
+            r#"{{"schema":"shoal.bench/1","name":"tube/interval_addition","value":{best_ns:.1},"unit":"ns"}}"#
+        );
+    }
+
     fn questions(&self) {
         let mut random = Random(1);
         let times_s: Vec<f64> = (0..QUESTIONS).map(|_| END_S * random.unit()).collect();
