@@ -50,12 +50,10 @@ impl<T: Enclosure> Tube<T> {
     /// Intersects a gate, which the caller knows to exist. No summary speaks of gates.
     #[inline]
     pub(crate) fn narrow_gate(&mut self, index: usize, value: T) -> Contracted {
-        let was_empty = self.is_empty();
-        let contracted = narrow(&mut self.gates[index], value, &mut self.empty_count);
-        if !was_empty && self.is_empty() {
-            self.note_empty(Place::Gate(index));
-        }
-        contracted
+        let before = self.gates[index];
+        let after = before & value;
+        self.gates[index] = after;
+        self.told(Place::Gate(index), before, after)
     }
 
     /// Intersects a slice, which the caller knows to exist, and with it the gates beside. The summaries wait for
@@ -73,12 +71,28 @@ impl<T: Enclosure> Tube<T> {
     /// [`narrow_slice`](Tube::narrow_slice) for a caller that narrows the two gates to the slice itself.
     #[inline]
     pub(crate) fn narrow_slice_alone(&mut self, index: usize, value: T) -> Contracted {
-        let was_empty = self.is_empty();
-        let contracted = narrow(&mut self.slices[index], value, &mut self.empty_count);
-        if !was_empty && self.is_empty() {
-            self.note_empty(Place::Slice(index));
+        let before = self.slices[index];
+        let after = before & value;
+        self.slices[index] = after;
+        self.told(Place::Slice(index), before, after)
+    }
+
+    /// What must always be true of a slice.
+    pub(crate) fn gates_are_inside(&self, index: usize) -> bool {
+        self.gates.range(index..index + 2).all(|gate| gate.is_subset_of(&self.slices[index]))
+    }
+
+    /// What the contraction of a slice or a gate did.
+    #[inline]
+    fn told(&mut self, place: Place, before: T, after: T) -> Contracted {
+        if after.is_empty() {
+            self.note_empty(place, before);
+            Contracted::Empty
+        } else if after == before {
+            Contracted::Unchanged
+        } else {
+            Contracted::Narrowed
         }
-        contracted
     }
 
     /// Remembers which constraint emptied the tube, if that has just happened; returns `contracted`.
@@ -93,28 +107,14 @@ impl<T: Enclosure> Tube<T> {
     }
 
     #[cold]
-    fn note_empty(&mut self, place: Place) {
-        self.first_emptied = Some(self.empty_at(place));
-    }
-
-    /// What must always be true of a slice.
-    pub(crate) fn gates_are_inside(&self, index: usize) -> bool {
-        self.gates.range(index..index + 2).all(|gate| gate.is_subset_of(&self.slices[index]))
-    }
-}
-
-/// Intersects a set with another in place, and counts it if it became empty.
-#[inline]
-fn narrow<T: Enclosure>(set: &mut T, other: T, empty_count: &mut usize) -> Contracted {
-    let before = *set;
-    *set = before & other;
-    if set.is_empty() {
-        *empty_count += usize::from(!before.is_empty());
-        Contracted::Empty
-    } else if *set == before {
-        Contracted::Unchanged
-    } else {
-        Contracted::Narrowed
+    fn note_empty(&mut self, place: Place, before: T) {
+        if before.is_empty() {
+            return;
+        }
+        if !self.is_empty() {
+            self.first_emptied = Some(self.empty_at(place));
+        }
+        self.empty_count += 1;
     }
 }
 

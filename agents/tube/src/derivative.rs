@@ -115,11 +115,14 @@ impl<T: Enclosure> Tube<T> {
         let travel = Travel::new(derivative, self.domain.duration_at(index));
         let input_gate = self.gates[index];
         let of_slice = self.narrow_slice_alone(index, input_gate + travel.within);
-        let slice = self.slices[index];
-        let of_input = self.narrow_gate(index, slice);
-        let of_output = self.narrow_gate(index + 1, (input_gate + travel.across) & slice);
+        if of_slice == Contracted::Empty {
+            return self.narrow_slice(index, T::EMPTY);
+        }
+        // The input gate is inside the slice still, because no travel is zero.
+        let reached = (input_gate + travel.across) & self.slices[index];
+        let of_output = self.narrow_gate(index + 1, reached);
         debug_assert!(self.gates_are_inside(index));
-        together(of_slice, together(of_input, of_output))
+        together(of_slice, of_output)
     }
 
     /// [`carry_forward`](Tube::carry_forward), from the output gate to the input gate.
@@ -128,11 +131,13 @@ impl<T: Enclosure> Tube<T> {
         let travel = Travel::new(derivative, self.domain.duration_at(index));
         let output_gate = self.gates[index + 1];
         let of_slice = self.narrow_slice_alone(index, output_gate - travel.within);
-        let slice = self.slices[index];
-        let of_output = self.narrow_gate(index + 1, slice);
-        let of_input = self.narrow_gate(index, (output_gate - travel.across) & slice);
+        if of_slice == Contracted::Empty {
+            return self.narrow_slice(index, T::EMPTY);
+        }
+        let left = (output_gate - travel.across) & self.slices[index];
+        let of_input = self.narrow_gate(index, left);
         debug_assert!(self.gates_are_inside(index));
-        together(of_slice, together(of_input, of_output))
+        together(of_slice, of_input)
     }
 }
 

@@ -49,8 +49,17 @@
 //!
 //! # Asking
 //!
-//! Where at this time, over these times, when there, how far: [`at`](Tube::at), [`over`](Tube::over),
-//! [`invert`](Tube::invert), [`integral`](Tube::integral). The cost grows with the logarithm of the number of slices at most.
+//! | question | method | time |
+//! |---|---|---|
+//! | where at `t` | [`at`](Tube::at) | O(1) for even slices |
+//! | where over `[t]` | [`over`](Tube::over) | O(log n) |
+//! | when in `[y]`, as a hull | [`invert`](Tube::invert), [`invert_within`](Tube::invert_within) | O(log n) |
+//! | when in `[y]`, each time of its own | [`invert_components`](Tube::invert_components) | O(log n) for each |
+//! | how far between `t1` and `t2` | [`integral`](Tube::integral), [`integral_between`](Tube::integral_between) | O(log n) |
+//! | sharper, knowing the derivative | [`at_with_derivative`](Tube::at_with_derivative), [`over_with_derivative`](Tube::over_with_derivative), [`invert_with_derivative`](Tube::invert_with_derivative) | O(log n) |
+//! | is a trajectory, or a tube, inside | [`contains`](Tube::contains), [`holds`](Tube::holds), [`is_subset_of`](Tube::is_subset_of) | O(n) |
+//! | is anything left | [`is_empty`](Tube::is_empty) | O(1) |
+//! | if not, what emptied it, where and when | [`emptied`](Tube::emptied) | O(1) |
 //!
 //! ```
 //! use shoal_interval::{Interval, Membership};

@@ -73,3 +73,54 @@ fn certainly_reached(tube: &Tube<Interval>) -> Interval {
     let highest = tube.gates.iter().map(|gate| gate.lower()).fold(f64::NEG_INFINITY, f64::max);
     if lowest <= highest { Interval::spanning(lowest, highest) } else { Interval::EMPTY }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+
+    fn over(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    fn time() -> TimeDomain {
+        TimeDomain::uniform(0.0, 1.0, 8).unwrap()
+    }
+
+    #[test]
+    fn a_clock_at_half_speed() {
+        let mut x = Tube::constant(time(), Interval::ENTIRE);
+        let mut h = Tube::from_function(time(), |t| t * 0.5);
+        let mut y = Tube::from_function(time(), |t| t);
+        contract_composition(&mut x, &mut h, &mut y).unwrap();
+        // Gates are asked for in whole slices, one to each side.
+        assert_eq!((x.gate(2), x.slice(2)), (Some(over(3.0, 5.0)), Some(over(3.0, 7.0))));
+        // It never leads further than 4 s.
+        assert_eq!((x.slice(4), x.gate(5)), (Some(Interval::ENTIRE), Some(Interval::ENTIRE)));
+    }
+
+    #[test]
+    fn the_clock_is_read_from_what_it_shows() {
+        let mut x = Tube::from_function(time(), |t| t);
+        let mut h = Tube::constant(time(), over(-1.0, 20.0));
+        let mut y = Tube::constant(time(), over(2.25, 2.5));
+        contract_composition(&mut x, &mut h, &mut y).unwrap();
+        // Times outside the domain are as possible as before.
+        assert_eq!(h.slice(3), Some(over(-1.0, 20.0)));
+        let mut h = Tube::constant(time(), over(0.0, 8.0));
+        contract_composition(&mut x, &mut h, &mut y).unwrap();
+        assert_eq!(h.slice(3), Some(over(2.0, 3.0)));
+    }
+
+    #[test]
+    fn a_contradiction_empties_all_three() {
+        let mut x = Tube::from_function(time(), |t| t);
+        let mut h = Tube::constant(time(), over(0.0, 8.0));
+        let mut y = Tube::constant(time(), over(9.0, 10.0));
+        assert_eq!(contract_composition(&mut x, &mut h, &mut y), Ok(Contracted::Empty));
+        assert!(x.is_empty() && h.is_empty() && y.is_empty());
+        for emptied in [x.emptied(), h.emptied(), y.emptied()] {
+            assert_eq!(emptied.unwrap().constraint, Some(Constraint::Composition));
+        }
+    }
+}

@@ -46,3 +46,48 @@ pub fn contract_delay<T: Enclosure>(
     }
     Ok(both_or_none(x, y, contracted, Constraint::Delay))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+    use shoal_interval::Interval;
+
+    fn over(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    fn ramp() -> Tube<Interval> {
+        Tube::from_function(TimeDomain::uniform(0.0, 1.0, 6).unwrap(), |time| time)
+    }
+
+    #[test]
+    fn a_delay_between_borders_takes_in_two_slices() {
+        let mut late = Tube::constant(TimeDomain::uniform(0.0, 1.0, 6).unwrap(), Interval::ENTIRE);
+        contract_delay(&mut late, &mut ramp(), 1.5).unwrap();
+        assert_eq!((late.slice(1), late.slice(2)), (Some(Interval::ENTIRE), Some(over(0.0, 2.0))));
+        assert_eq!((late.gate(1), late.gate(2)), (Some(Interval::ENTIRE), Some(over(0.0, 1.0))));
+        assert_eq!(late.last_gate(), over(4.0, 5.0));
+    }
+
+    #[test]
+    fn a_negative_delay_is_an_advance() {
+        let mut early = Tube::constant(TimeDomain::uniform(0.0, 1.0, 6).unwrap(), Interval::ENTIRE);
+        contract_delay(&mut early, &mut ramp(), -2.0).unwrap();
+        assert_eq!((early.slice(0), early.slice(4)), (Some(over(2.0, 3.0)), Some(Interval::ENTIRE)));
+    }
+
+    #[test]
+    fn contradictions_and_bad_delays() {
+        let mut late = &ramp() + 1.0;
+        assert!(contract_delay(&mut late, &mut ramp(), f64::NAN).is_err());
+        assert_eq!(contract_delay(&mut late, &mut ramp(), 1e300), Ok(Contracted::Unchanged));
+        let mut call = ramp();
+        assert_eq!(contract_delay(&mut late, &mut call, 2.0), Ok(Contracted::Empty));
+        assert_eq!(
+            late.emptied().unwrap().to_string(),
+            "slice 2, from 2 s to 3 s, is empty: emptied by a delay"
+        );
+        assert!(call.is_empty());
+    }
+}

@@ -66,7 +66,7 @@ impl<T: Enclosure> Tube<T> {
     /// let (mut time_s, mut value_m) = (Interval::new(4.0, 6.0)?, Interval::new(5.0, 5.2)?);
     /// x_m.contract_evaluation_with_derivative(&speed_m_s, &mut time_s, &mut value_m)?;
     /// x_m.contract_derivative_around(&speed_m_s, time_s)?;
-    /// assert!(x_m.gate(8).unwrap().is_subset_of(Interval::new(2.8, 5.2)?));
+    /// assert!(x_m.gate(8).unwrap().is_subset_of(Interval::new(2.79, 5.21)?));
     /// assert!(x_m.gate(8).unwrap().contains(4.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -238,3 +238,6 @@ fn hull<T: Enclosure>(passages: &[Passage<T>]) -> (Interval, T) {
 fn since(from_s: Interval, to_s: Interval) -> Interval {
     (to_s - from_s) & Interval::NON_NEGATIVE
 }
+
+#[cfg(test)]
+mod tests;

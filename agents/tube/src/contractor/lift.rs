@@ -44,13 +44,13 @@ impl<const N: usize> Tube<IntervalBox<N>> {
 ///
 /// // power = voltage * current
 /// let time = TimeDomain::uniform(0.0, 1.0, 5)?;
-/// let mut voltage_v = Tube::constant(time.clone(), Interval::new(20.0, 24.0)?);
+/// let mut voltage_v = Tube::constant(time.clone(), Interval::new(16.0, 32.0)?);
 /// let mut current_a = Tube::constant(time.clone(), Interval::NON_NEGATIVE);
-/// let mut power_w = Tube::from_function(time, |t| t * 12.0);
+/// let mut power_w = Tube::from_function(time, |t| t * 16.0);
 /// lift([&mut voltage_v, &mut current_a, &mut power_w], |[voltage, current, power]| {
 ///     contract_product(voltage, current, power);
 /// })?;
-/// assert_eq!(current_a.gate(2), Some(Interval::new(1.0, 1.2)?));
+/// assert_eq!(current_a.at(2.0)?, Interval::new(1.0, 2.0)?);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -161,5 +161,41 @@ impl<T: Enclosure> Tube<T> {
             Place::Slice(index) => self.narrow_slice(index, value),
             Place::Gate(index) => self.narrow_gate(index, value),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+    use shoal_interval::Interval;
+    use shoal_interval::contractor::contract_sum;
+
+    fn over(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    #[test]
+    fn what_a_closure_adds_is_taken_away() {
+        let mut x = Tube::constant(TimeDomain::uniform(0.0, 1.0, 3).unwrap(), over(0.0, 1.0));
+        let widen = |[set]: &mut [Interval; 1]| *set = set.inflate(1.0);
+        assert_eq!(lift([&mut x], widen), Ok(Contracted::Unchanged));
+    }
+
+    #[test]
+    fn one_empty_slice_empties_all_there() {
+        let time = TimeDomain::uniform(0.0, 1.0, 3).unwrap();
+        let mut x = Tube::from_function(time.clone(), |t| t);
+        let mut y = Tube::constant(time.clone(), over(0.0, 1.0));
+        let mut sum = Tube::constant(time, over(0.0, 2.5));
+        let add = |[x, y, z]: &mut [Interval; 3]| {
+            contract_sum(x, y, z);
+        };
+        assert_eq!(lift([&mut x, &mut y, &mut sum], add), Ok(Contracted::Empty));
+        let emptied = y.emptied().unwrap();
+        assert_eq!((emptied.place, emptied.constraint), (Place::Gate(3), Some(Constraint::Algebraic)));
+        assert_eq!((x.emptied(), sum.emptied()), (Some(emptied), Some(emptied)));
+        let mut other = Tube::constant(TimeDomain::uniform(0.0, 1.0, 4).unwrap(), Interval::ONE);
+        assert_eq!(lift([&mut x, &mut other], |_| {}), Err(TubeError::DifferentDomains));
     }
 }

@@ -63,3 +63,24 @@ pub fn contract_equality<T: Enclosure>(x: &mut Tube<T>, y: &mut Tube<T>) -> Resu
     };
     Ok(lifted([x, y], contract, Constraint::Equality))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+
+    #[test]
+    fn no_bound_and_no_trajectory() {
+        let time = TimeDomain::uniform(0.0, 1.0, 2).unwrap();
+        let mut anything = Tube::constant(time.clone(), Interval::ENTIRE);
+        let mut other = anything.clone();
+        assert_eq!(contract_order(&mut anything, &mut other), Ok(Contracted::Unchanged));
+        let mut nothing = Tube::constant(time.clone(), Interval::EMPTY);
+        assert_eq!(contract_order(&mut anything, &mut nothing), Ok(Contracted::Empty));
+        assert!(anything.is_empty());
+        let mut high = Tube::constant(time.clone(), Interval::ONE);
+        let mut low = Tube::constant(time, Interval::ZERO);
+        assert_eq!(contract_order(&mut high, &mut low), Ok(Contracted::Empty));
+        assert_eq!(low.emptied().unwrap().constraint, Some(Constraint::Order));
+    }
+}

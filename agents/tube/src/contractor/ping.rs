@@ -123,3 +123,55 @@ impl<const N: usize> Moving<'_, N> {
         self.position_m.evaluate(self.velocity_m_s, time_s, place_m, Constraint::Ping)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+
+    fn over(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    fn still(x: Interval) -> Tube<IntervalBox<2>> {
+        let time = TimeDomain::uniform(0.0, 0.125, 80).unwrap();
+        Tube::constant(time, IntervalBox::from([x, Interval::ZERO]))
+    }
+
+    fn ping(reception_s: Interval) -> Ping {
+        Ping { emission_s: over(2.0, 2.0), reception_s, sound_speed_m_s: over(100.0, 100.0) }
+    }
+
+    #[test]
+    fn the_time_of_reception_is_learnt_from_where_both_are() {
+        let (mut heard, mut sent) = (still(over(100.0, 200.0)), still(Interval::ZERO));
+        let mut ping = ping(over(0.0, 9.0));
+        let receiver = Moving { position_m: &mut heard, velocity_m_s: None };
+        let emitter = Moving { position_m: &mut sent, velocity_m_s: None };
+        assert_eq!(contract_ping(receiver, emitter, &mut ping), Ok(Contracted::Narrowed));
+        assert_eq!(ping.reception_s, over(3.0, 4.0));
+    }
+
+    #[test]
+    fn a_contradiction_empties_all_and_says_where() {
+        let (mut heard, mut sent) = (still(over(100.0, 200.0)), still(Interval::ZERO));
+        let mut ping = ping(over(5.0, 9.0));
+        let receiver = Moving { position_m: &mut heard, velocity_m_s: None };
+        let emitter = Moving { position_m: &mut sent, velocity_m_s: None };
+        assert_eq!(contract_ping(receiver, emitter, &mut ping), Ok(Contracted::Empty));
+        assert_eq!(ping, Ping::EMPTY);
+        assert_eq!(heard.emptied().unwrap().to_string(), "gate 56, at 7 s, is empty: emptied by a ping");
+        assert_eq!(sent.emptied().unwrap().constraint, Some(Constraint::Ping));
+    }
+
+    #[test]
+    fn a_time_outside_the_domain_changes_nothing() {
+        let (mut heard, mut sent) = (still(over(100.0, 200.0)), still(Interval::ZERO));
+        let before = ping(over(5.0, 11.0));
+        let mut ping = before;
+        let receiver = Moving { position_m: &mut heard, velocity_m_s: None };
+        let emitter = Moving { position_m: &mut sent, velocity_m_s: None };
+        assert!(contract_ping(receiver, emitter, &mut ping).is_err());
+        assert_eq!(ping, before);
+    }
+}

@@ -77,3 +77,36 @@ impl<T: Enclosure> Tube<T> {
         Ok(self.blamed(together(at_axis, mirrored), Constraint::Symmetry))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+
+    fn over(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    #[test]
+    fn only_times_with_an_image_are_contracted() {
+        let mut x = Tube::from_function(TimeDomain::uniform(0.0, 1.0, 6).unwrap(), |time| time.inflate(3.0));
+        x.contract_axial_symmetry(2.0).unwrap();
+        assert_eq!((x.slice(0), x.slice(3)), (Some(over(0.0, 4.0)), Some(over(0.0, 4.0))));
+        assert_eq!(x.slice(4), Some(over(1.0, 8.0)));
+        assert_eq!(x.contract_axial_symmetry(2.0), Ok(Contracted::Unchanged));
+        assert!(x.contract_axial_symmetry(f64::INFINITY).is_err());
+        assert_eq!(x.contract_axial_symmetry(f64::MAX), Ok(Contracted::Unchanged));
+    }
+
+    #[test]
+    fn the_trajectory_passes_the_centre() {
+        let time = TimeDomain::uniform(-2.0, 1.0, 4).unwrap();
+        let mut x = Tube::constant(time, over(-1.0, 3.0));
+        x.contract_slice(3, &over(1.0, 2.0)).unwrap();
+        x.contract_central_symmetry(0.0, Interval::ZERO).unwrap();
+        assert_eq!((x.slice(0), x.gate(2)), (Some(over(-1.0, -1.0)), Some(Interval::ZERO)));
+        assert_eq!(x.contract_central_symmetry(0.5, over(5.0, 6.0)), Ok(Contracted::Empty));
+        let emptied = x.emptied().unwrap();
+        assert_eq!((emptied.place, emptied.constraint), (Place::Slice(2), Some(Constraint::Symmetry)));
+    }
+}

@@ -96,3 +96,67 @@ fn contract_delay_alone<T: Enclosure>(x: &Tube<T>, y: &Tube<T>, delay_s: &mut In
     }
     Interval::EMPTY
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_domain::TimeDomain;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn over(lower: f64, upper: f64) -> Interval {
+        Interval::new(lower, upper).unwrap()
+    }
+
+    fn waves(count: usize) -> (Tube<Interval>, Tube<Interval>) {
+        let time = TimeDomain::uniform(0.0, 10.0 / count as f64, count).unwrap();
+        (Tube::from_function(time.clone(), Interval::sin), Tube::from_function(time, Interval::cos))
+    }
+
+    #[test]
+    fn a_quarter_turn_is_found_to_three_slices() {
+        for count in [100, 1_000, 10_000] {
+            let (mut sin, mut cos) = waves(count);
+            let mut delay_s = over(0.0, 3.0);
+            assert_eq!(contract_uncertain_delay(&mut sin, &mut cos, &mut delay_s), Contracted::Narrowed);
+            assert!(delay_s.contains(FRAC_PI_2) && delay_s.width() < 3.0 * 10.0 / count as f64, "{delay_s}");
+        }
+    }
+
+    #[test]
+    fn a_part_of_one_tube_is_learnt_from_the_other() {
+        let (sin, mut cos) = waves(1_000);
+        let mut late = Tube::constant(sin.domain().clone(), over(-1.0, 1.0));
+        for index in 0..500 {
+            late.contract_slice(index, &sin.slice(index).unwrap()).unwrap();
+        }
+        let mut delay_s = over(0.0, 3.0);
+        contract_uncertain_delay(&mut late, &mut cos, &mut delay_s);
+        assert!(delay_s.contains(FRAC_PI_2) && delay_s.width() < 0.03);
+        assert!(late.slice(900).unwrap().width() < 0.1);
+        assert!(!(late.slice(900).unwrap() & sin.slice(900).unwrap()).is_empty());
+    }
+
+    #[test]
+    fn delays_out_of_the_domain_stay_possible() {
+        let (mut sin, mut cos) = waves(100);
+        let mut delay_s = over(-100.0, -9.0);
+        contract_uncertain_delay(&mut sin, &mut cos, &mut delay_s);
+        assert_eq!(delay_s.lower(), -100.0);
+        assert!(!sin.is_empty());
+        let mut unknown_s = Interval::ENTIRE;
+        assert_eq!(contract_uncertain_delay(&mut sin, &mut cos, &mut unknown_s), Contracted::Unchanged);
+    }
+
+    #[test]
+    fn a_contradiction_empties_all() {
+        let (mut sin, mut cos) = waves(100);
+        let mut delay_s = over(2.5, 2.6);
+        assert_eq!(contract_uncertain_delay(&mut sin, &mut cos, &mut delay_s), Contracted::Empty);
+        assert!(delay_s.is_empty() && cos.is_empty());
+        assert_eq!(sin.emptied().and_then(|emptied| emptied.constraint), Some(Constraint::Delay));
+        let (mut sin, mut cos) = waves(10);
+        let mut no_delay = Interval::EMPTY;
+        assert_eq!(contract_uncertain_delay(&mut sin, &mut cos, &mut no_delay), Contracted::Empty);
+        assert!(sin.is_empty() && cos.is_empty());
+    }
+}

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 impl<T: Enclosure> Tube<T> {
     /// [`contract_derivative`](Tube::contract_derivative) over the slices that the times of `window` touch, and no others.
-    /// The time that it takes grows with the number of these slices.
+    /// The time that it takes grows with the number of these slices, if the domains are uniform or clones of one.
     ///
     /// ```
     /// use shoal_interval::Interval;
