@@ -48,7 +48,7 @@ mod orthonormal;
 mod parallelepiped;
 mod step;
 
-pub(crate) use carrier::Carrier;
+pub(crate) use carrier::{Carrier, Way};
 pub use carrier::{Diverged, Steps};
 pub use contraction::Evolved;
 pub use evolution::{Autonomous, Driven, Evolution};

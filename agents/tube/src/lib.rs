@@ -47,6 +47,10 @@
 //! | slices and gates, or tubes of each axis | [`Tube::from_parts`], [`Tube::from_components`] |
 //! | the present, as it comes | [`Tube::starting_at`] and [`Tube::append`] |
 //!
+//! Tubes that are taken together must be cut at the same times; clones of a domain share their memory, and slices of one
+//! length take none. No contractor changes the times: only [`append`](Tube::append), [`drop_front`](Tube::drop_front) and
+//! [`refine`](Tube::refine) do, because they are asked to.
+//!
 //! # Asking
 //!
 //! | question | method | time |
@@ -123,7 +127,7 @@
 //!
 //! Module [`integration`] encloses all solutions of a state equation, with a proof for each slice that none leaves it, and carries sets through
 //! it without wrapping them into larger ones. Where not even the start is known, a box of states is cut into parts, each part is
-//! carried both ways and thrown away when its tube empties: CONTRACT, STRANGLE, TubeCSIVIA.
+//! carried both ways and thrown away when its tube empties: CONTRACT, STRANGLE, TubeCSIVIA, in module [`estimation`].
 //!
 //! # Online
 //!
@@ -180,6 +184,7 @@ pub mod contractor;
 mod derivative;
 mod enclosure;
 mod error;
+pub mod estimation;
 pub mod figure;
 mod integral;
 pub mod integration;

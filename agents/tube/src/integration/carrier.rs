@@ -6,6 +6,7 @@ use crate::contraction::together;
 use crate::tube::Tube;
 use shoal_interval::IntervalBox;
 use shoal_interval::contractor::Contracted;
+use std::ops::Range;
 use thiserror::Error;
 
 /// Into how many steps a slice is cut for the integration. The tube keeps its slices.
@@ -48,6 +49,26 @@ pub struct Diverged {
 pub(crate) enum Way {
     Forward,
     Backward,
+}
+
+impl Way {
+    /// The gate that is passed later.
+    pub(crate) fn later(self, one: usize, other: usize) -> usize {
+        if self == Way::Forward { one.max(other) } else { one.min(other) }
+    }
+
+    /// The gate after this one, were there any number of gates.
+    pub(crate) fn beyond(self, gate: usize) -> usize {
+        if self == Way::Forward { gate + 1 } else { gate.saturating_sub(1) }
+    }
+
+    /// The slice after a gate and the gate after that, if that slice is one of `slices`.
+    pub(crate) fn next(self, gate: usize, slices: Range<usize>) -> Option<(usize, usize)> {
+        match self {
+            Way::Forward => (gate < slices.end).then_some((gate, gate + 1)),
+            Way::Backward => (gate > slices.start).then(|| (gate - 1, gate - 1)),
+        }
+    }
 }
 
 /// What passing a slice did.
