@@ -135,4 +135,18 @@ mod tests {
         assert_eq!(tube.contract_slice(2, &over(2.0, 2.5)), Ok(Contracted::Empty));
         assert!(tube.is_empty() && tube.width().is_nan());
     }
+
+    #[test]
+    fn what_emptied_the_tube_moves_with_its_slice_and_goes_with_it() {
+        let mut tube = three_slices();
+        tube.contract_slice(1, &Interval::EMPTY).unwrap();
+        let emptied = tube.emptied().unwrap();
+        assert_eq!((emptied.place, emptied.constraint), (Place::Slice(1), Some(Constraint::Value)));
+        tube.drop_front(1);
+        assert_eq!(tube.emptied().map(|emptied| emptied.place), Some(Place::Slice(0)));
+        tube.drop_front(1);
+        // The gate at the end of the slice is still empty.
+        assert_eq!(tube.emptied(), tube.first_empty());
+        assert_eq!(tube.emptied().map(|emptied| emptied.place), Some(Place::Gate(0)));
+    }
 }
