@@ -92,6 +92,11 @@ impl Figure {
         })
     }
 
+    /// What the figure shows.
+    pub fn view(&self) -> IntervalBox<2> {
+        self.view
+    }
+
     /// Gives the figure this size in pixels, with a scale of its own for each axis: for curves over time.
     pub fn stretched_to(mut self, width_px: u32, height_px: u32) -> Figure {
         (self.width_px, self.height_px) = (f64::from(width_px.max(1)), f64::from(height_px.max(1)));
@@ -179,7 +184,7 @@ impl Figure {
             let from_top = height - 20.0;
             let _ = writeln!(
                 svg,
-                r#"<rect class="{}" x="{at}" y="{from_top}" width="12" height="12"/><text x="{}" y="{}">{}</text>"#,
+                r#"<rect class="key {}" x="{at}" y="{from_top}" width="12" height="12"/><text x="{}" y="{}">{}</text>"#,
                 class.name(),
                 at + 17.0,
                 from_top + 10.5,

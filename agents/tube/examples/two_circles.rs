@@ -14,12 +14,16 @@
 //! Done rigorously the same clock reading contradicts the same bounds: the answer is the empty set. A clock of vehicle 2
 //! inside its bounds shows at most 1.36 s when the ping arrives.
 //!
-//! Run with `cargo run -p shoal-tube --example two_circles`.
+//! Run with `cargo run -p shoal-tube --example two_circles`; the figure shows the reading that is possible.
 
+use nalgebra::Vector2;
 use pxfm::{f_cos, f_sin};
 use shoal_interval::contractor::contract_range;
+use shoal_interval::figure::{Class, Figure, figures_folder};
 use shoal_interval::{Interval, IntervalBox};
+use shoal_tube::figure::DrawTube;
 use shoal_tube::{TimeDomain, Tube, TubeError};
+use std::error::Error;
 
 const RADIUS_M: f64 = 10.0;
 const SOUND_SPEED_M_S: f64 = 100.0;
@@ -63,7 +67,7 @@ impl Ping {
     }
 }
 
-fn main() -> Result<(), TubeError> {
+fn main() -> Result<(), Box<dyn Error>> {
     let printed = as_printed()?;
     println!("as printed, by rules that are not rigorous");
     print("before the ping", &printed);
@@ -78,7 +82,34 @@ fn main() -> Result<(), TubeError> {
     println!("rigorously, had the clock shown 1.30 s");
     print("before the ping", &honest);
     print("after the ping", &honest.contracted());
+    draw(&honest)?.save(figures_folder().join("001_5_4_1_two_circles.svg"))?;
     Ok(())
+}
+
+/// Where both vehicles were from the start on, and where at the ping.
+fn draw(ping: &Ping) -> Result<Figure, Box<dyn Error>> {
+    let mut after = ping.contracted();
+    // The receiver was where it was at the times that are left.
+    after.position_m = after.position_m & position(RECEIVER)?.over(after.reception_s)?;
+    let places = |ping: &Ping| [ping.emitter_m, ping.position_m];
+    let mut figure = Figure::new(IntervalBox::from([Interval::centred(0.0, 14.0); 2]))?
+        .title("Two vehicles, one ping")
+        .trace(&position(SENDER)?, [0, 1], Class::Outside)
+        .trace(&position(RECEIVER)?, [0, 1], Class::Outside)
+        .boxes(&places(ping), Class::Boundary)
+        .boxes(&places(&after), Class::Level(0))
+        .axes("x (m)", "y (m)");
+    for side in [SENDER.side, RECEIVER.side] {
+        let circle = |time_s| Vector2::new(f_cos(time_s), f_sin(time_s)) * (side * RADIUS_M);
+        figure = figure.path(true_time()?.span(), circle);
+    }
+    Ok(figure
+        .point(Vector2::new(RADIUS_M, 0.0), "sender")
+        .point(Vector2::new(-RADIUS_M, 0.0), "receiver")
+        .legend(Class::Outside, "tubes")
+        .legend(Class::Boundary, "where they were at the ping")
+        .legend(Class::Level(0), "contracted by it")
+        .legend(Class::Curve, "truth"))
 }
 
 fn print(when: &str, ping: &Ping) {
@@ -192,7 +223,6 @@ fn position(vehicle: Vehicle) -> Result<Tube<IntervalBox<2>>, TubeError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector2;
 
     /// Both bounds, each within `tolerance` of what is printed.
     fn near(interval: Interval, printed: [f64; 2], tolerance: f64) -> bool {

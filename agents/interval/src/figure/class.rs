@@ -25,7 +25,7 @@ text{font:12px sans-serif;fill:#222}.title{font-size:15px}\
 .inner,.boundary,.outside,.level0,.level1,.level2,.level3,.level4{stroke:#333;stroke-opacity:.55}\
 .inner{fill:#d7263d}.boundary{fill:#ffd23f}.outside{fill:#a9d6f5}\
 .level0{fill:#8ac47f}.level1{fill:#cfdc6c}.level2{fill:#ffd23f}.level3{fill:#f08a3c}.level4{fill:#d7263d}\
-.line{fill:none;stroke:#111}.curve{fill:none;stroke:#5a2a83}";
+.line{fill:none;stroke:#111}.curve{fill:none;stroke:#5a2a83}.union{stroke:none}";
 
 /// The widths of lines between boxes, of lines and of curves, in pixels.
 const WIDTHS_PX: [f64; 3] = [0.4, 0.8, 1.6];
@@ -38,7 +38,7 @@ pub(super) fn style(pixel: f64) -> String {
     let [thin, line, curve] = WIDTHS_PX.map(|width| width * pixel);
     let [thin_px, line_px, curve_px] = WIDTHS_PX;
     format!(
-        "{COLOURS}.shapes{{stroke-width:{thin}}}.line{{stroke-width:{line}}}.curve{{stroke-width:{curve}}}\
+        "{COLOURS}.key{{stroke-width:{curve_px}}}.shapes{{stroke-width:{thin}}}.shapes .line{{stroke-width:{line}}}.shapes .curve{{stroke-width:{curve}}}\
          @supports (vector-effect:non-scaling-stroke){{.shapes *{{vector-effect:non-scaling-stroke;\
          stroke-width:{thin_px}px}}.shapes .line{{stroke-width:{line_px}px}}.shapes .curve{{stroke-width:{curve_px}px}}}}"
     )

@@ -19,7 +19,20 @@ impl Figure {
     }
 
     /// Adds boxes of one class, all in one path. Empty boxes are left out.
-    pub fn boxes<'a>(mut self, boxes: impl IntoIterator<Item = &'a IntervalBox<2>>, class: Class) -> Figure {
+    pub fn boxes<'a>(self, boxes: impl IntoIterator<Item = &'a IntervalBox<2>>, class: Class) -> Figure {
+        self.path_of_boxes(boxes, class.name())
+    }
+
+    /// Adds what many boxes cover together, without the lines around each.
+    pub fn union<'a>(self, boxes: impl IntoIterator<Item = &'a IntervalBox<2>>, class: Class) -> Figure {
+        self.path_of_boxes(boxes, &format!("{} union", class.name()))
+    }
+
+    fn path_of_boxes<'a>(
+        mut self,
+        boxes: impl IntoIterator<Item = &'a IntervalBox<2>>,
+        class: &str,
+    ) -> Figure {
         let mut path = String::new();
         for shown in boxes {
             // Nothing is drawn far outside of the view, where a reader's numbers could overflow.
@@ -30,7 +43,7 @@ impl Figure {
             }
         }
         if !path.is_empty() {
-            let _ = writeln!(self.shapes, r#"<path class="{}" d="{path}"/>"#, class.name());
+            let _ = writeln!(self.shapes, r#"<path class="{class}" d="{path}"/>"#);
         }
         self
     }
@@ -74,6 +87,11 @@ impl Figure {
     /// Adds the border of a polygon.
     pub fn polygon(self, corners: &[Vector2<f64>]) -> Figure {
         self.line(corners, Class::Line, "z")
+    }
+
+    /// Adds a polygon of one class with what is inside it.
+    pub fn area(self, corners: &[Vector2<f64>], class: Class) -> Figure {
+        self.line(corners, class, "z")
     }
 
     /// Adds a curve through points.
