@@ -7,10 +7,6 @@ fn over(lower: f64, upper: f64) -> Interval {
     Interval::new(lower, upper).unwrap()
 }
 
-fn is_close(a: IntervalBox<3>, b: IntervalBox<3>) -> bool {
-    a.is_empty() && b.is_empty() || a.is_subset_of(&b.inflate(1e-12)) && b.is_subset_of(&a.inflate(1e-12))
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
 
@@ -22,9 +18,10 @@ proptest! {
         let [x, y] = sides.map(|(lower, width)| over(lower, lower + width));
         let domain = IntervalBox::from([x, y, over(angle, angle + width)]);
         let (direct, spread) = (Atan2.contract(domain), Atan2Seed.spread().contract(domain));
-        // Two paths of rounding may disagree on whether the sets touch.
-        let grazing = direct.is_empty() != spread.is_empty() && Atan2.contract(domain.inflate(-0.0).inflate(1e-12)).is_empty() == spread.is_empty();
-        prop_assert!(grazing || is_close(direct, spread), "{}: {} or {}", domain, direct, spread);
+        // Two paths of rounding differ as two domains do that are a little apart, which is much along a steep line of sight.
+        let wider = domain.inflate(1e-12);
+        let of_wider = (Atan2.contract(wider).inflate(1e-12), Atan2Seed.spread().contract(wider).inflate(1e-12));
+        prop_assert!(direct.is_subset_of(&of_wider.1) && spread.is_subset_of(&of_wider.0), "{}: {} or {}", domain, direct, spread);
     }
 
     #[test]
