@@ -2,7 +2,7 @@
 
 use shoal_bus::message::{Culprit, Measured};
 use shoal_bus::ping::Ping;
-use shoal_interval::contractor::contract_range;
+use shoal_interval::contractor::{Contracted, contract_range};
 use shoal_interval::{Interval, IntervalBox};
 
 use crate::bounds::{interval, interval_box, measured};
@@ -113,14 +113,14 @@ impl State {
         let longest_delay_s = Interval::spanning(0.0, sound.hearing_range_m) / sound_speed_m_s;
         let mut reception_s =
             (self.true_time_s(arrival.stamp_s) + offset_gain_s).intersection(emission_s + longest_delay_s);
-        let possible = contract_range(
+        let contracted = contract_range(
             &mut position_m,
             &mut emitter_m,
             &mut sound_speed_m_s,
             &mut reception_s,
             &mut emission_s,
         );
-        if !possible {
+        if contracted == Contracted::Empty {
             return Err(Contradiction(Culprit::Ping(ping.sender)));
         }
         Self {

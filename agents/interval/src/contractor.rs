@@ -19,7 +19,8 @@
 //! [`with_parameters`](Contractor::with_parameters) that are known.
 //!
 //! # Ready-made contractors
-//! Each comes as a function that contracts variables in place, and as a type that implements [`Contractor`].
+//! Most come both as a function that contracts variables in place and as a type that implements [`Contractor`], for what is left
+//! when the rest is known.
 //!
 //! | constraint | in place | contractor | minimal |
 //! |---|---|---|---|
@@ -28,10 +29,11 @@
 //! | `y = x²` | [`contract_square`] | [`Square`] | yes |
 //! | `‖a - b‖ = r` | [`contract_distance`] | [`Ring`] | yes |
 //! | `‖p - e‖ = c (t - a)` | [`contract_range`] | | yes |
-//! | `angle = atan2(y, x)` | [`contract_atan2`] | [`Atan2`], [`Sector`] | yes |
+//! | `angle = atan2(y, x)` | [`contract_atan2`] | [`Atan2`] | yes |
+//! | the bearing under which a place is seen | | [`Sector`] | from one place |
 //! | `(x, y) = r (cos b, sin b)` | [`contract_polar`] | [`Polar`] | yes |
 //! | `w = R(angle) v` | [`contract_rotation`], [`contract_euler_rotation`] | [`Rotation`] | no |
-//! | distance to a wall along a bearing | [`wall_return`] | [`WallRange`], [`NothingSeen`] | no |
+//! | distance to a wall along a bearing (forwards: [`wall_return`], [`nearest_return`]) | | [`WallRange`], [`NothingSeen`] | no |
 //! | silence in front of a wall | | [`Silence`] | yes |
 //!
 //! *Minimal* means here: the exact hull but for a few units in the last place, as long as squares neither overflow nor

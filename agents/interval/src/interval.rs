@@ -20,7 +20,7 @@ use crate::set::larger;
 /// ```
 ///
 /// Source: seed 001, equation (2.2).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Interval {
     lower: f64,
     upper: f64,

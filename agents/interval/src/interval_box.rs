@@ -29,7 +29,7 @@ pub use difference::Difference;
 /// ```
 ///
 /// Source: seed 001, equations (2.19) to (2.22).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct IntervalBox<const N: usize> {
     sides: [Interval; N],
 }

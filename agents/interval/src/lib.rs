@@ -75,8 +75,10 @@
 //! # 4. Contractors: equations as narrowing
 //! A constraint links variables, each of which is known to be in a set. A [`Contractor`](contractor::Contractor) removes from the
 //! sets what cannot satisfy it: `C([x]) ⊂ [x]`, and `[x] ∩ S ⊂ C([x])`. It needs no inverse, no initial guess and no order: whatever
-//! is known narrows whatever is not. It is built from *reverse operations*, `c.sqr_rev(x)` being the numbers of `x` whose square is in
-//! `c`. Ready-made ones are listed in [`contractor`]; a new one is a closure, or comes from an expression.
+//! is known narrows whatever is not. It is built from *reverse operations*, named as in IEEE 1788: `c.sqr_rev(x)` are the numbers of
+//! `x` whose square is in `c`; of two arguments the known one is the receiver, `b.mul_rev(c, x)` being the numbers of `x` that times some
+//! number of `b` give one of `c`, and a digit says which argument is sought (`pow_rev1` the base, `pow_rev2` the exponent; `pown_rev`
+//! reverses `powi`). Ready-made ones are listed in [`contractor`]; a new one is a closure, or comes from an expression.
 //!
 //! ```
 //! use shoal_interval::contractor::{Contractor, contract_distance};

@@ -16,12 +16,6 @@ impl Interval {
         self.is_empty() || (other.lower() <= self.lower() && self.upper() <= other.upper())
     }
 
-    /// Whether every number of `other` is in `self`.
-    #[inline]
-    pub const fn contains_interval(self, other: Interval) -> bool {
-        other.is_subset_of(self)
-    }
-
     /// The numbers that are in both; also written `x & y`. Exact.
     ///
     /// ```

@@ -2,7 +2,8 @@
 //!
 //! Every contractor keeps two promises: what it leaves is inside what it was given, and every trajectory that was inside
 //! and obeys the constraint is still inside. None changes how time is cut. Constraints between different times, such as a
-//! delay, reach only where both times are in the domains of the tubes: outside nothing is known, and nothing is removed.
+//! delay, reach only where both times are in the domains of the tubes: outside nothing is known, and nothing is removed. What
+//! changes one tube is a method of it, what changes several is a function.
 //!
 //! | constraint | contractor | between |
 //! |---|---|---|
@@ -15,9 +16,10 @@
 //! | `x(tau + t) = x(tau - t)` | [`Tube::contract_axial_symmetry`](crate::Tube::contract_axial_symmetry) | a tube |
 //! | `x(tau + t) - c = c - x(tau - t)` | [`Tube::contract_central_symmetry`](crate::Tube::contract_central_symmetry) | a tube |
 //! | `dx/dt = v` | [`Tube::contract_derivative`](crate::Tube::contract_derivative), [within](crate::Tube::contract_derivative_within) or [around](crate::Tube::contract_derivative_around) a window | tubes cut at the same times |
-//! | `dx/dt = f(t, x)` | [`Tube::contract_state_equation`](crate::Tube::contract_state_equation) | a tube |
+//! | `dx/dt = f(t, x)`, guaranteed integration | [`Tube::contract_evolution`](crate::Tube::contract_evolution) | a tube of boxes |
+//! | the same, one derivative contraction a pass, from what is already enclosed | [`Tube::contract_state_equation`](crate::Tube::contract_state_equation) | any tube |
 //! | `dx/dt = v = f(x, u)` | [`contract_chain`] | three tubes cut at the same times |
-//! | `y = x(t)` | [`Tube::contract_evaluation`](crate::Tube::contract_evaluation), [with the derivative](crate::Tube::contract_evaluation_with_derivative) | a tube and two sets |
+//! | `y = x(t)`, both uncertain (then carry it on: `contract_derivative_around`) | [`Tube::contract_evaluation`](crate::Tube::contract_evaluation), [with the derivative](crate::Tube::contract_evaluation_with_derivative) | a tube and two sets |
 //! | `y(t) = x(h(t))` | [`contract_composition`] | `y` and `h` cut at the same times, and any `x` |
 //! | `g = h⁻¹` | [`contract_inverse`] | any two tubes |
 //! | `‖p(b) - q(a)‖ = c (b - a)` | [`contract_ping`] | any two tubes and three intervals |

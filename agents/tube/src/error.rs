@@ -23,7 +23,9 @@ pub enum TubeError {
         next_s: f64,
     },
     /// Steps must be positive, and large enough that no two borders are rounded to one.
-    #[error("a step of {step_s} s is not positive or too small to be told apart at {time_s} s")]
+    #[error(
+        "a step of {step_s:?} s must be positive, and large enough that borders up to {time_s:?} s differ"
+    )]
     StepTooSmall {
         /// The step, in seconds.
         step_s: f64,
@@ -72,7 +74,9 @@ pub enum TubeError {
         gates: usize,
     },
     /// Two tubes that are taken together must be cut at the same times.
-    #[error("the two tubes are cut at different times")]
+    #[error(
+        "the two tubes are cut at different times: give both a clone of one domain, or bring one to the other's with `resampled`"
+    )]
     DifferentDomains,
 }
 

@@ -16,17 +16,13 @@
 //! | the steps of the seeds, which prove nothing | [`Tube::contract_euler_unguaranteed`](crate::Tube::contract_euler_unguaranteed) |
 //!
 //! ```
-//! use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
-//! use shoal_tube::integration::{Autonomous, Steps};
+//! use shoal_interval::expression::Expression;
+//! use shoal_interval::{Interval, IntervalBox};
+//! use shoal_tube::integration::Steps;
 //! use shoal_tube::{TimeDomain, Tube};
 //!
-//! // A pendulum of 1 s^-2 for small angles: x' = v, v' = -x.
-//! let swing = Autonomous::new(
-//!     |s: &IntervalBox<2>| IntervalBox::from([s[1], -s[0]]),
-//!     |_: &IntervalBox<2>| {
-//!         IntervalMatrix::from([[Interval::ZERO, Interval::ONE], [-Interval::ONE, Interval::ZERO]])
-//!     },
-//! );
+//! // A pendulum of 1 s^-2 for small angles: x' = v, v' = -x. An expression knows its own Jacobian.
+//! let swing = Expression::<2, 2>::system(|[x, v]| [v, -x]);
 //! let released = IntervalBox::from([Interval::new(0.9, 1.1)?, Interval::ZERO]);
 //! let time = TimeDomain::uniform(0.0, 0.05, 400)?;
 //! let states = Tube::solution(time, &swing, released, Steps::default())?;

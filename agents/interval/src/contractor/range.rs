@@ -8,10 +8,10 @@ use crate::interval_box::IntervalBox;
 ///
 /// `position` is where the receiver is at `reception`, `emitter` where the sender was at `emission`; metres, metres per
 /// second and seconds of true time. One forward-backward pass, which loses no solution and, as each variable appears
-/// once, is minimal. Returns whether anything is left; when nothing is, all five sets are empty.
+/// once, is minimal. When nothing is left, all five sets are empty.
 ///
 /// ```
-/// use shoal_interval::contractor::contract_range;
+/// use shoal_interval::contractor::{Contracted, contract_range};
 /// use shoal_interval::{Interval, IntervalBox};
 ///
 /// let mut position = IntervalBox::from([Interval::new(0.0, 200.0)?, Interval::ZERO, Interval::ZERO]);
@@ -19,14 +19,15 @@ use crate::interval_box::IntervalBox;
 /// let mut sound_speed = Interval::point(1500.0)?;
 /// let mut reception = Interval::new(10.0, 10.2)?;
 /// let mut emission = Interval::point(9.9)?;
-/// assert!(contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission));
+/// let contracted =
+///     contract_range(&mut position, &mut emitter, &mut sound_speed, &mut reception, &mut emission);
+/// assert_eq!(contracted, Contracted::Narrowed);
 /// assert_eq!(format!("{:.3}", position[0]), "[149.999, 200.000]");
 /// assert_eq!(format!("{reception:.3}"), "[10.000, 10.034]");
 /// # Ok::<(), shoal_interval::IntervalError>(())
 /// ```
 ///
 /// Source: seed 001, equations (5.4) and (5.7).
-#[must_use = "an empty result says that the sets contradict each other"]
 #[inline]
 pub fn contract_range<const N: usize>(
     position: &mut IntervalBox<N>,
@@ -34,7 +35,8 @@ pub fn contract_range<const N: usize>(
     sound_speed: &mut Interval,
     reception: &mut Interval,
     emission: &mut Interval,
-) -> bool {
+) -> Contracted {
+    let before = (*position, *emitter, *sound_speed, *reception, *emission);
     let delay = *reception - *emission;
     let travelled = *sound_speed * delay;
     let mut range = travelled;
@@ -55,7 +57,7 @@ pub fn contract_range<const N: usize>(
         (*position, *emitter) = (IntervalBox::EMPTY, IntervalBox::EMPTY);
         (*sound_speed, *reception, *emission) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
     }
-    !empty
+    Contracted::from_flags(empty, (*position, *emitter, *sound_speed, *reception, *emission) != before)
 }
 
 #[cfg(test)]

@@ -65,6 +65,23 @@ impl<const N: usize> fmt::Display for IntervalBox<N> {
     }
 }
 
+/// Writes the bounds as they are, as `f64` are written: `[0.1, 0.30000000000000004]`.
+impl fmt::Debug for Interval {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_empty() {
+            return formatter.write_str("empty");
+        }
+        write!(formatter, "[{:?}, {:?}]", self.lower(), self.upper())
+    }
+}
+
+/// Writes the sides joined by `x` with their bounds as `f64` are written, or `empty`.
+impl<const N: usize> fmt::Debug for IntervalBox<N> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_sides(self, formatter, fmt::Debug::fmt)
+    }
+}
+
 /// Writes the sides joined by `x`, exactly, or `empty`.
 impl<const N: usize> fmt::LowerHex for IntervalBox<N> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

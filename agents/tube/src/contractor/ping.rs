@@ -79,8 +79,9 @@ pub fn contract_ping<const N: usize>(
         (left.reception_s, place_m) = receiver.passing(left.reception_s, place_m)?;
         (left.emission_s, source_m) = emitter.passing(left.emission_s, source_m)?;
         let Ping { emission_s, reception_s, sound_speed_m_s } = &mut left;
-        let possible = contract_range(&mut place_m, &mut source_m, sound_speed_m_s, reception_s, emission_s);
-        if !possible {
+        let contracted =
+            contract_range(&mut place_m, &mut source_m, sound_speed_m_s, reception_s, emission_s);
+        if contracted == Contracted::Empty {
             // The places are empty; the times still say where.
             left = *ping;
             break;

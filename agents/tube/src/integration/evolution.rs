@@ -6,8 +6,9 @@ use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 /// A state equation `x' = f(t, x)`, or the inclusion `x'` in `f(t, x)` when inputs or noise are only known to lie in sets,
 /// given by enclosures.
 ///
-/// A closure `|times_s, states| velocities` is an evolution. Inputs are tubes that the closure holds, and asks for
-/// `input.over(times_s)`. With a Jacobian, see [`Autonomous`] and [`Driven`], enclosures are far tighter.
+/// There are three ways to write one: an [`Expression`], whose derivatives are found by itself; a closure `|times_s, states|
+/// velocities` where there are inputs or noise, tubes that the closure holds and asks for `input.over(times_s)`; and
+/// [`Autonomous`] or [`Driven`] with a Jacobian of your own. With a Jacobian enclosures are far tighter.
 ///
 /// ```
 /// use shoal_interval::{Interval, IntervalBox};
