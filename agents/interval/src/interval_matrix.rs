@@ -42,7 +42,14 @@ impl<const R: usize, const C: usize> IntervalMatrix<R, C> {
     /// The matrix whose entry in each row and column is what `entry(row, column)` gives.
     #[inline]
     pub fn from_fn(mut entry: impl FnMut(usize, usize) -> Interval) -> IntervalMatrix<R, C> {
-        IntervalMatrix { rows: std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column))) }
+        // Loops, because nested closures are not inlined where it matters.
+        let mut rows = [[Interval::ZERO; C]; R];
+        for (row, entries) in rows.iter_mut().enumerate() {
+            for (column, place) in entries.iter_mut().enumerate() {
+                *place = entry(row, column);
+            }
+        }
+        IntervalMatrix { rows }
     }
 
     /// The rows, each an array of the entries of its columns.
@@ -128,7 +135,7 @@ impl<const R: usize, const C: usize> IntervalMatrix<R, C> {
         if self.is_empty() {
             return IntervalMatrix::EMPTY;
         }
-        IntervalMatrix { rows: self.rows.map(|row| row.map(&mut change)) }.or_empty()
+        IntervalMatrix::from_fn(|row, column| change(self.rows[row][column])).or_empty()
     }
 
     /// The same set, empty in all entries if it was in one.

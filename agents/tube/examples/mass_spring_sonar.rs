@@ -10,12 +10,14 @@
 //! One thing more is assumed: the mass is never faster than 20 m/s. At 100 m/s it would swing by 24 m four times in 5 s, and
 //! the guaranteed steps would have to be far shorter than 0.01 s to follow it.
 //!
-//! Run with `cargo run --release -p shoal-tube --example mass_spring_sonar`.
+//! Run with `cargo run --release -p shoal-tube --example mass_spring_sonar`; the figures are those of 4.8 and 4.9.
 
 use nalgebra::Vector2;
 use shoal_interval::contractor::Contracted;
+use shoal_interval::figure::{Class, Figure, figures_folder};
 use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 use shoal_tube::estimation::{EstimationError, Search, Strangled, System, from_contraction};
+use shoal_tube::figure::{DrawTube, over_time};
 use shoal_tube::integration::Evolution;
 use shoal_tube::{Place, TimeDomain, Tube, TubeError};
 use std::time::Instant;
@@ -252,6 +254,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     let begin = Instant::now();
+    let mut stages = vec![states.clone()];
     for k0_s in (0..=60).step_by(5).map(f64::from) {
         let strangled = strangle(&system, &mut states, k0_s)?;
         let ((x_m, x_most_m), (v_m_s, v_most_m_s)) = (widths(&states, 0), widths(&states, 1));
@@ -262,13 +265,63 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             strangled.kept.len(),
             begin.elapsed().as_secs_f64()
         );
+        if let Some((letter, _)) = [("a", 0.0), ("b", 50.0)].into_iter().find(|&(_, at_s)| at_s == k0_s) {
+            let figure = draw_boxes(&strangled, &swing.at(k0_s), k0_s)?;
+            figure.save(figures_folder().join(format!("001_4_9{letter}_mass_spring_sonar.svg")))?;
+        }
+        if [0.0, 25.0, 60.0].contains(&k0_s) {
+            stages.push(states.clone());
+        }
     }
     println!("the start, in truth (10, 0): {:.3}", states.at(0.0)?);
     if !holds(&states, &swing)? {
         return Err("the tube has lost the truth".into());
     }
     println!("the truth is inside at all times (the seed: 2.5 s and 7 MB, without that proof)");
+    for (axis, letter, quantity) in [(0, "p", "x (m)"), (1, "s", "v (m/s)")] {
+        let figure = draw_stages(&stages, &swing, axis, quantity)?;
+        figure.save(figures_folder().join(format!("001_4_8{letter}_mass_spring_sonar.svg")))?;
+    }
     Ok(())
+}
+
+/// One axis of the tube before and after some estimations, all over each other.
+fn draw_stages(
+    stages: &[States],
+    swing: &Swing,
+    axis: usize,
+    quantity: &str,
+) -> Result<Figure, Box<dyn std::error::Error>> {
+    let span_s = stages[0].domain().span();
+    let largest = if axis == 0 { 20.0 } else { 12.0 };
+    let mut figure = over_time(span_s, Interval::centred(0.0, largest))?
+        .title("A mass on a spring and its echoes, without initial conditions");
+    let captions = ["nothing estimated", "k0 = 0 s", "k0 = 0 to 25 s", "every fifth second"];
+    for ((stage, caption), level) in stages.iter().zip(captions).zip([0, 2, 3, 4]) {
+        figure =
+            figure.tube(&stage.component(axis), Class::Level(level)).legend(Class::Level(level), caption);
+    }
+    Ok(figure
+        .trajectory(span_s, |time_s| swing.at(time_s)[axis])
+        .legend(Class::Curve, "truth")
+        .axes("t (s)", quantity))
+}
+
+/// What STRANGLE2 has kept and rejected at `k0_s`, near the truth.
+fn draw_boxes(
+    strangled: &Strangled<2>,
+    truth: &Vector2<f64>,
+    k0_s: f64,
+) -> Result<Figure, Box<dyn std::error::Error>> {
+    let view = strangled.hull().inflate_axes(&Vector2::new(4.0, 4.0));
+    Ok(Figure::new(view)?
+        .title(&format!("States at {k0_s} s"))
+        .boxes(&strangled.rejected, Class::Outside)
+        .boxes(&strangled.kept, Class::Boundary)
+        .point(*truth, "truth")
+        .legend(Class::Outside, "no trajectory")
+        .legend(Class::Boundary, "kept")
+        .axes("x (m)", "v (m/s)"))
 }
 
 #[cfg(test)]

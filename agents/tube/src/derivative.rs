@@ -3,8 +3,8 @@
 use crate::contraction::together;
 use crate::enclosure::Enclosure;
 use crate::error::{Constraint, TubeError};
+use crate::time_domain::exactly;
 use crate::tube::Tube;
-use shoal_interval::Interval;
 use shoal_interval::contractor::Contracted;
 use std::collections::VecDeque;
 
@@ -29,9 +29,9 @@ impl<T: Enclosure> Tube<T> {
         let mut gate = at_start;
         gates.push_back(gate);
         for (index, &slope) in derivative.slices.iter().enumerate() {
-            let travel = Travel::new(slope, derivative.domain.duration_at(index));
-            slices.push_back(gate + travel.within);
-            gate = gate + travel.across;
+            let reached = gate + slope * derivative.domain.duration_at(index);
+            slices.push_back(on_the_way(gate, reached));
+            gate = reached;
             gates.push_back(gate);
         }
         Tube::assembled(derivative.domain.clone(), slices, gates)
@@ -53,20 +53,15 @@ impl<T: Enclosure> Tube<T> {
         direction: Direction,
     ) -> Result<Contracted, TubeError> {
         self.check_same_domain(derivative)?;
-        let all = 0..self.slice_count();
         let mut contracted = Contracted::Unchanged;
         if direction != Direction::Backward {
-            for index in all.clone() {
-                contracted = together(contracted, self.carry_forward(index, derivative.slices[index]));
-            }
+            contracted = together(contracted, self.sweep_forward(derivative));
         }
         if direction != Direction::Forward {
-            for index in all.clone().rev() {
-                contracted = together(contracted, self.carry_backward(index, derivative.slices[index]));
-            }
+            contracted = together(contracted, self.sweep_backward(derivative));
         }
         if contracted != Contracted::Unchanged {
-            self.refresh(all);
+            self.refresh(0..self.slice_count());
         }
         Ok(self.blamed(contracted, Constraint::Derivative))
     }
@@ -108,19 +103,99 @@ impl<T: Enclosure> Tube<T> {
         Ok(self.blamed(contracted, Constraint::Derivative))
     }
 
+    /// [`carry_forward`](Tube::carry_forward) through all slices.
+    fn sweep_forward(&mut self, derivative: &Tube<T>) -> Contracted {
+        let mut contracted = Contracted::Unchanged;
+        let mut start = 0;
+        while let Some(stuck) = self.sweep_forward_from(start, derivative, &mut contracted) {
+            contracted = together(contracted, self.carry_forward(stuck, derivative.slices[stuck]));
+            start = stuck + 1;
+        }
+        contracted
+    }
+
+    /// Goes on until a slice through which nothing can be carried, which it returns.
+    fn sweep_forward_from(
+        &mut self,
+        start: usize,
+        derivative: &Tube<T>,
+        contracted: &mut Contracted,
+    ) -> Option<usize> {
+        let (slices, gates) = (self.slices.make_contiguous(), self.gates.make_contiguous());
+        let mut from_s = self.domain.border_at(start);
+        let mut gate = gates[start];
+        let mut is_narrowed = false;
+        let mut stuck = None;
+        let parts =
+            slices[start..].iter_mut().zip(&mut gates[start + 1..]).zip(derivative.slices.range(start..));
+        for (index, ((slice, next_gate), &slope)) in (start..).zip(parts) {
+            let to_s = self.domain.border_at(index + 1);
+            let reached = gate + slope * (exactly(to_s) - from_s);
+            let Some(narrowed) = narrow_both(slice, next_gate, gate, reached) else {
+                stuck = Some(index);
+                break;
+            };
+            is_narrowed |= narrowed;
+            (gate, from_s) = (*next_gate, to_s);
+        }
+        if is_narrowed {
+            *contracted = together(*contracted, Contracted::Narrowed);
+        }
+        stuck
+    }
+
+    /// [`carry_backward`](Tube::carry_backward) through all slices.
+    fn sweep_backward(&mut self, derivative: &Tube<T>) -> Contracted {
+        let mut contracted = Contracted::Unchanged;
+        let mut end = self.slice_count();
+        while let Some(stuck) = self.sweep_backward_from(end, derivative, &mut contracted) {
+            contracted = together(contracted, self.carry_backward(stuck, derivative.slices[stuck]));
+            end = stuck;
+        }
+        contracted
+    }
+
+    /// [`sweep_forward_from`](Tube::sweep_forward_from), from the end of slice `end - 1` to the start of the tube.
+    fn sweep_backward_from(
+        &mut self,
+        end: usize,
+        derivative: &Tube<T>,
+        contracted: &mut Contracted,
+    ) -> Option<usize> {
+        let (slices, gates) = (self.slices.make_contiguous(), self.gates.make_contiguous());
+        let mut to_s = self.domain.border_at(end);
+        let mut gate = gates[end];
+        let mut is_narrowed = false;
+        let mut stuck = None;
+        let parts = slices[..end].iter_mut().zip(&mut gates[..end]).zip(derivative.slices.range(..end));
+        for (index, ((slice, next_gate), &slope)) in (0..end).zip(parts).rev() {
+            let from_s = self.domain.border_at(index);
+            let left = gate - slope * (exactly(to_s) - from_s);
+            let Some(narrowed) = narrow_both(slice, next_gate, gate, left) else {
+                stuck = Some(index);
+                break;
+            };
+            is_narrowed |= narrowed;
+            (gate, to_s) = (*next_gate, from_s);
+        }
+        if is_narrowed {
+            *contracted = together(*contracted, Contracted::Narrowed);
+        }
+        stuck
+    }
+
     /// Carries the input gate of slice `index`, which the caller knows to exist, through the slice to its output gate. The
     /// summaries wait for [`refresh`](Tube::refresh).
     #[inline]
     pub(crate) fn carry_forward(&mut self, index: usize, derivative: T) -> Contracted {
-        let travel = Travel::new(derivative, self.domain.duration_at(index));
         let input_gate = self.gates[index];
-        let of_slice = self.narrow_slice_alone(index, input_gate + travel.within);
+        let reached = input_gate + derivative * self.domain.duration_at(index);
+        let of_slice = self.narrow_slice_alone(index, on_the_way(input_gate, reached));
         if of_slice == Contracted::Empty {
             return self.narrow_slice(index, T::EMPTY);
         }
         // The input gate is inside the slice still, because no travel is zero.
-        let reached = (input_gate + travel.across) & self.slices[index];
-        let of_output = self.narrow_gate(index + 1, reached);
+        let of_output = self.narrow_gate(index + 1, reached & self.slices[index]);
         debug_assert!(self.gates_are_inside(index));
         together(of_slice, of_output)
     }
@@ -128,35 +203,38 @@ impl<T: Enclosure> Tube<T> {
     /// [`carry_forward`](Tube::carry_forward), from the output gate to the input gate.
     #[inline]
     pub(crate) fn carry_backward(&mut self, index: usize, derivative: T) -> Contracted {
-        let travel = Travel::new(derivative, self.domain.duration_at(index));
         let output_gate = self.gates[index + 1];
-        let of_slice = self.narrow_slice_alone(index, output_gate - travel.within);
+        let left = output_gate - derivative * self.domain.duration_at(index);
+        let of_slice = self.narrow_slice_alone(index, on_the_way(output_gate, left));
         if of_slice == Contracted::Empty {
             return self.narrow_slice(index, T::EMPTY);
         }
-        let left = (output_gate - travel.across) & self.slices[index];
-        let of_input = self.narrow_gate(index, left);
+        let of_input = self.narrow_gate(index, left & self.slices[index]);
         debug_assert!(self.gates_are_inside(index));
         together(of_slice, of_input)
     }
 }
 
-/// How far a derivative leads in a slice.
-struct Travel<T> {
-    /// From its start to its end.
-    across: T,
-    /// From its start to any time of it.
-    within: T,
+/// Narrows a slice and the gate behind it, at which `reached` is reached from `gate`. The answer is whether one of them
+/// changed; `None`, with both left as they are, if one of them would be empty.
+#[inline]
+fn narrow_both<T: Enclosure>(slice: &mut T, next_gate: &mut T, gate: T, reached: T) -> Option<bool> {
+    let narrower = *slice & on_the_way(gate, reached);
+    let narrower_gate = reached & narrower & *next_gate;
+    if narrower.is_empty() || narrower_gate.is_empty() {
+        return None;
+    }
+    let narrowed = narrower != *slice || narrower_gate != *next_gate;
+    (*slice, *next_gate) = (narrower, narrower_gate);
+    Some(narrowed)
 }
 
-impl<T: Enclosure> Travel<T> {
-    #[inline]
-    fn new(derivative: T, duration_s: Interval) -> Travel<T> {
-        let across = derivative * duration_s;
-        // Rounding up is monotonic, so this is `derivative * [0, duration]` to the bit.
-        let within = if across.is_empty() { across } else { across | T::zero() };
-        Travel { across, within }
-    }
+/// Where a trajectory is while a constant set of derivatives leads it from one gate to what is reached at the other.
+///
+/// Rounding is monotonic, so the hull of both ends is `gate + [0, duration] * derivative` to the bit.
+#[inline]
+fn on_the_way<T: Enclosure>(gate: T, reached: T) -> T {
+    if reached.is_empty() { reached } else { gate | reached }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ mod tree;
 pub(crate) use tree::{Part, Step, SummaryTree};
 
 use crate::enclosure::Enclosure;
-use crate::time_domain::TimeDomain;
+use crate::time_domain::{TimeDomain, exactly};
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -79,16 +79,15 @@ pub(crate) struct Slices<'a, T> {
 impl<T: Enclosure> Slices<'_, T> {
     /// The summary of some slices, by looking at each.
     fn summary(&self, range: Range<usize>) -> Summary<T> {
-        let mut summary = Summary { hull: T::EMPTY, innermost: T::UNBOUNDED, integral: Integral::zero() };
+        let (mut hull, mut innermost, mut integral) = (T::EMPTY, T::UNBOUNDED, Integral::zero());
         let mut start_s = self.domain.border_at(range.start);
         for (index, &slice) in range.clone().zip(self.values.range(range)) {
             let end_s = self.domain.border_at(index + 1);
-            summary.hull = summary.hull | slice;
-            summary.innermost = slice.innermost(summary.innermost);
-            summary.integral =
-                summary.integral.and_slice(slice * (crate::time_domain::exactly(end_s) - start_s));
+            hull = hull | slice;
+            innermost = slice.innermost(innermost);
+            integral = integral.and_slice(slice * (exactly(end_s) - start_s));
             start_s = end_s;
         }
-        summary
+        Summary { hull, innermost, integral }
     }
 }

@@ -39,10 +39,16 @@ impl IntervalMatrix<3, 3> {
     }
 }
 
-/// The sum of products, exact when there is one, zero when there is none.
+/// The sum of the products of each of `row` with one of `column`: exact when there is one, zero when there is none.
 #[inline]
-fn dot(terms: impl Iterator<Item = (Interval, Interval)>) -> Interval {
-    terms.map(|(a, b)| a * b).reduce(|sum, term| sum + term).unwrap_or(Interval::ZERO)
+fn dot<const K: usize>(row: &[Interval; K], column: impl Fn(usize) -> Interval) -> Interval {
+    // A loop, because chained iterators are not inlined where it matters.
+    let mut sum = Interval::ZERO;
+    for (index, &entry) in row.iter().enumerate() {
+        let product = entry * column(index);
+        sum = if index == 0 { product } else { sum + product };
+    }
+    sum
 }
 
 /// The products of a matrix of each. An entry is minimal up to rounding; the set of all products is not a product of
@@ -55,9 +61,7 @@ impl<const R: usize, const K: usize, const C: usize> Mul<IntervalMatrix<K, C>> f
         if self.is_empty() || other.is_empty() {
             return IntervalMatrix::EMPTY;
         }
-        IntervalMatrix::from_fn(|row, column| {
-            dot(self.rows[row].iter().zip(&other.rows).map(|(&entry, along)| (entry, along[column])))
-        })
+        IntervalMatrix::from_fn(|row, column| dot(&self.rows[row], |index| other.rows[index][column]))
     }
 }
 
@@ -70,7 +74,7 @@ impl<const R: usize, const C: usize> Mul<IntervalBox<C>> for IntervalMatrix<R, C
         if self.is_empty() || vector.is_empty() {
             return IntervalBox::EMPTY;
         }
-        IntervalBox::from(self.rows.map(|row| dot(row.iter().copied().zip(vector.iter().copied()))))
+        IntervalBox::from(self.rows.map(|row| dot(&row, |index| vector[index])))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::time_domain::TimeDomain;
+use shoal_interval::Interval;
 
 fn over(lower: f64, upper: f64) -> Interval {
     Interval::new(lower, upper).unwrap()

@@ -1,7 +1,7 @@
 //! The algorithm STRANGLE: the box at one gate is cut in two again and again.
 
 use super::error::EstimationError;
-use super::sweep::{Route, Schedule};
+use super::sweep::{Route, Schedule, Sweep};
 use super::system::System;
 use crate::enclosure::Enclosure;
 use crate::integration::{Evolution, Way};
@@ -12,6 +12,12 @@ use std::rc::Rc;
 
 /// The whole tube is contracted at most this often before it is cut.
 const MOST_ROUNDS_BEFORE: usize = 20;
+
+/// The states of a box that is to be cut are followed while they make a gate narrower than this share on some axis.
+const GREAT_NEWS: f64 = 0.5;
+
+/// The same for boxes that are narrow enough to be kept.
+const GOOD_NEWS: f64 = 0.9;
 
 /// How finely to cut, and for how long.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,8 +134,19 @@ impl<const N: usize, E: Evolution<N>> System<'_, N, E> {
                 break;
             }
         }
+        let coarse = Sweep { worth_going_on: GREAT_NEWS, ..sweep };
+        let fine = Sweep { worth_going_on: GOOD_NEWS, ..sweep };
         search_boxes(tube, gate, initial, search, |part, set| {
-            Ok(self.contract_scheduled(part, gate, set, &sweep, 1)? != Contracted::Empty)
+            // What is to be cut anyway is only asked whether it can be rejected soon.
+            if search.halves(set).is_some() {
+                if self.contract_scheduled(part, gate, set, &coarse, 1)? == Contracted::Empty {
+                    return Ok(false);
+                }
+                if search.halves(&part.gates[gate]).is_some() {
+                    return Ok(true);
+                }
+            }
+            Ok(self.contract_scheduled(part, gate, set, &fine, 1)? != Contracted::Empty)
         })
     }
 }

@@ -12,8 +12,8 @@ use shoal_interval::contractor::Contracted;
 use std::iter::Peekable;
 use std::ops::Range;
 
-/// A sweep goes on while it makes some side of the gates narrower than this share.
-const WORTH_GOING_ON: f64 = 0.98;
+/// A sweep goes on while it makes some side of the gates narrower than this share, as long as nothing else is said.
+pub(super) const ANY_NEWS: f64 = 0.98;
 
 /// The gates of an observation of no time: the first is after the last.
 const NEVER: (usize, usize) = (usize::MAX, 0);
@@ -135,6 +135,8 @@ pub(super) struct Sweep<'a, const N: usize, E: ?Sized> {
     pub(super) first_gate: usize,
     /// Whether each observation counts.
     pub(super) counted: &'a [bool],
+    /// A sweep goes on while it makes some side of the gates narrower than this share.
+    pub(super) worth_going_on: f64,
 }
 
 impl<const N: usize, E: Evolution<N> + ?Sized> Sweep<'_, N, E> {
@@ -164,7 +166,7 @@ impl<const N: usize, E: Evolution<N> + ?Sized> Sweep<'_, N, E> {
                     contracted = together(contracted, self.observations[observation].contract(tube)?);
                 }
             }
-            let mut news = is_narrower(&tube.gates[swept.gate], &before);
+            let mut news = is_narrower(&tube.gates[swept.gate], &before, self.worth_going_on);
             if !news && swept.gate == way.later(until, swept.gate) {
                 swept.contracted = together(swept.contracted, contracted);
                 break;
@@ -179,7 +181,7 @@ impl<const N: usize, E: Evolution<N> + ?Sized> Sweep<'_, N, E> {
                 if of_slice == Contracted::Narrowed {
                     stale.add(slice);
                 }
-                news |= is_narrower(&tube.gates[gate], &before);
+                news |= is_narrower(&tube.gates[gate], &before, self.worth_going_on);
                 contracted = together(contracted, of_slice);
             }
             if contracted == Contracted::Empty {
@@ -197,9 +199,9 @@ impl<const N: usize, E: Evolution<N> + ?Sized> Sweep<'_, N, E> {
     }
 }
 
-/// Whether a gate has become so much narrower that a sweep goes on for it.
-fn is_narrower<const N: usize>(now: &IntervalBox<N>, before: &IntervalBox<N>) -> bool {
-    now.iter().zip(before).any(|(now, before)| now.width() < WORTH_GOING_ON * before.width())
+/// Whether some side of a gate has become narrower than a share of what it was.
+fn is_narrower<const N: usize>(now: &IntervalBox<N>, before: &IntervalBox<N>, share: f64) -> bool {
+    now.iter().zip(before).any(|(now, before)| now.width() < share * before.width())
 }
 
 /// Slices that were narrowed since the summaries were brought up to date.

@@ -2,7 +2,7 @@
 
 use super::error::EstimationError;
 use super::observation::Observation;
-use super::sweep::{Route, Schedule, Sweep};
+use super::sweep::{ANY_NEWS, Route, Schedule, Sweep};
 use crate::contraction::together;
 use crate::integration::{Evolution, Steps, Way};
 use crate::tube::Tube;
@@ -99,6 +99,7 @@ impl<'a, const N: usize, E: Evolution<N>> System<'a, N, E> {
             schedule,
             first_gate: 0,
             counted,
+            worth_going_on: ANY_NEWS,
         }
     }
 

@@ -25,7 +25,7 @@ pub(super) fn enclosure<const N: usize, E: Evolution<N> + ?Sized>(
         let guessed = inflated(start, &guess);
         let image = reached(&guessed);
         if image.is_interior_of(&guessed) {
-            return Some(reached(&image) & image);
+            return Some(image);
         }
         // What is unbounded at the start may stay so, what is not must not become it.
         if image.iter().zip(start).any(|(image, start)| start.is_bounded() && !image.is_bounded()) {
