@@ -182,9 +182,10 @@ impl Bench {
             let mut appended = Tube::starting_at(0.0, Interval::ZERO).expect("finite");
             for index in 0..count {
                 // No two steps are quite the same, so every border is stored.
-                let end_s = (index as f64 + 1.0) * 0.1;
+                let end_s = (index as f64 + 1.0) * 0.1 + 0.01 * f64::from((index % 7) as u8);
                 appended.append(end_s, Interval::ONE, Interval::ONE).expect("increasing");
             }
+            assert!(appended.domain().memory_bytes() >= 8 * count, "the borders take memory, too");
             let bytes = |tube: &Tube<Interval>| tube.memory_bytes() as f64 / count as f64;
             if self.is_asked("memory") {
                 report(

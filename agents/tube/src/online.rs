@@ -7,6 +7,9 @@ use crate::summary::Slices;
 use crate::time_domain::Place;
 use crate::tube::{Tube, settled};
 
+/// Room for this many slices is not given back when slices are dropped.
+const FORGOTTEN_ROOM: usize = 1024;
+
 impl<T: Enclosure> Tube<T> {
     /// Adds a slice that ends at `end_s` seconds, with the gate at its end. In constant time, on average.
     ///
@@ -40,7 +43,8 @@ impl<T: Enclosure> Tube<T> {
     }
 
     /// Forgets the `count` oldest slices with their input gates, or all if there are fewer; the last gate always stays. The
-    /// slice that had index `count` has index 0 afterwards.
+    /// slice that had index `count` has index 0 afterwards. When the slices go that had made the tube empty, so does the
+    /// contradiction: an observer that must not forget it asks [`emptied`](Tube::emptied) first.
     pub fn drop_front(&mut self, count: usize) {
         let count = count.min(self.slice_count());
         self.domain.drop_front(count);
@@ -49,6 +53,10 @@ impl<T: Enclosure> Tube<T> {
         self.empty_count -= slices + gates;
         self.first_emptied = self.first_emptied.and_then(|emptied| emptied.without_front(count));
         self.summaries.drop_front(count);
+        if self.slices.capacity() > FORGOTTEN_ROOM.max(4 * self.slices.len()) {
+            self.slices.shrink_to(2 * self.slices.len());
+            self.gates.shrink_to(2 * self.gates.len());
+        }
     }
 
     /// Forgets all slices that end at `time_s` seconds or before, and returns how many they were; a NaN is before all.

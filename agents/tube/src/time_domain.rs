@@ -76,7 +76,7 @@ impl TimeDomain {
         Ok(TimeDomain { borders: Borders::Regular(Regular::instant(finite(start_s)?)) })
     }
 
-    /// `count` slices of `step_s` seconds each; border `i` is `start_s + i * step_s`, rounded to nearest. Takes no memory.
+    /// `count` slices of `step_s` seconds each; border `i` is `start_s + i * step_s`, product and sum each rounded to nearest. Takes no memory.
     ///
     /// # Errors
     /// When a time is not finite, or the step is not positive or too small to be seen next to the times.

@@ -1,7 +1,7 @@
 //! The same trajectory cut otherwise, shifted in time, or after another.
 
 use crate::enclosure::Enclosure;
-use crate::error::TubeError;
+use crate::error::{Emptied, TubeError};
 use crate::time_domain::{TimeDomain, exactly};
 use crate::tube::Tube;
 use shoal_interval::Interval;
@@ -41,7 +41,9 @@ impl<T: Enclosure> Tube<T> {
     pub fn refine(&mut self, times_s: impl IntoIterator<Item = f64>) -> Result<(), TubeError> {
         let domain = self.domain.refined(times_s)?;
         if domain.slice_count() > self.slice_count() {
+            let constraint = self.emptied().and_then(|emptied| emptied.constraint);
             *self = self.resampled(&domain)?;
+            self.first_emptied = self.first_empty().map(|emptied| Emptied { constraint, ..emptied });
         }
         Ok(())
     }
@@ -50,7 +52,8 @@ impl<T: Enclosure> Tube<T> {
     ///
     /// Each border moves to the `f64` nearest to its sum with the delay, the first and the last one inwards. Where that sum is
     /// exact, as for multiples of a common power of two, slices and gates are just moved. Where it is not, the new border
-    /// is a little beside the old one, and a slice or gate holds what it was and the slice that it now reaches into.
+    /// is a little beside the old one, and a slice or gate holds what it was and the slice that it now reaches into; of a tube
+    /// without slices nothing is known then.
     ///
     /// # Errors
     /// When the delay is not finite, or so large that borders fall together or out of the numbers.
@@ -79,7 +82,10 @@ impl<T: Enclosure> Tube<T> {
             let exact = exactly(border_s) + delay_s == exactly(moved_s);
             if exact { exactly(border_s) } else { before(exactly(moved_s)) }
         };
-        let gates = (0..last + 1).map(|index| self.over(old_border_s(index))).collect::<Result<_, _>>()?;
+        // One border alone cannot move inwards: it may stand for a time beside the only one that is known.
+        let is_beside = last == 0 && exactly(self.domain.start_s()) + delay_s != exactly(domain.start_s());
+        let gate = |index: usize| if is_beside { Ok(T::ENTIRE) } else { self.over(old_border_s(index)) };
+        let gates = (0..last + 1).map(gate).collect::<Result<_, _>>()?;
         let slices = (0..last)
             .map(|index| self.over(old_border_s(index) | old_border_s(index + 1)))
             .collect::<Result<_, _>>()?;

@@ -139,7 +139,7 @@ impl<T: Enclosure> Tube<T> {
     /// What holds the trajectory at the end of slice `index`.
     #[inline]
     pub fn output_gate(&self, index: usize) -> Option<T> {
-        self.slices.get(index).and(self.gate(index + 1))
+        self.slices.get(index).and_then(|_| self.gate(index + 1))
     }
 
     /// What holds the trajectory at the end of the domain.
@@ -246,6 +246,9 @@ impl<T: Enclosure> Tube<T> {
     /// slices beside them, what is empty is empty on all axes, and the summaries are made.
     pub(crate) fn assembled(domain: TimeDomain, mut slices: VecDeque<T>, mut gates: VecDeque<T>) -> Tube<T> {
         debug_assert!(slices.len() == domain.slice_count() && gates.len() == slices.len() + 1);
+        // What was collected from an iterator of unknown length may have room for twice as much.
+        slices.shrink_to_fit();
+        gates.shrink_to_fit();
         for slice in &mut slices {
             *slice = settled(*slice);
         }

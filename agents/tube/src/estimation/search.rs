@@ -3,6 +3,7 @@
 use super::error::EstimationError;
 use super::sweep::{Route, Schedule, Sweep};
 use super::system::System;
+use crate::Constraint;
 use crate::enclosure::Enclosure;
 use crate::integration::{Evolution, Way};
 use crate::tube::Tube;
@@ -199,7 +200,8 @@ fn all_rejected<const N: usize>(
     gate: usize,
     initial: IntervalBox<N>,
 ) -> Strangled<N> {
-    tube.narrow_gate(gate, IntervalBox::EMPTY);
+    let emptied = tube.narrow_gate(gate, IntervalBox::EMPTY);
+    tube.blamed(emptied, Constraint::StateEquation);
     tube.refresh(0..tube.slice_count());
     Strangled { rejected: vec![initial], contractions: 1, ..Strangled::new() }
 }
@@ -240,7 +242,8 @@ impl<T: Enclosure> Union<T> {
     /// Removes from the tube what is in none of those that were added.
     pub(super) fn narrow(&self, tube: &mut Tube<T>) {
         for (index, &gate) in self.gates.iter().enumerate() {
-            tube.narrow_gate(index, gate);
+            let contracted = tube.narrow_gate(index, gate);
+            tube.blamed(contracted, Constraint::StateEquation);
         }
         for (index, &slice) in self.slices.iter().enumerate() {
             tube.narrow_slice(index, slice);

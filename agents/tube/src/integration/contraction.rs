@@ -2,6 +2,7 @@
 
 use super::carrier::{Carrier, Diverged, Steps, Way};
 use super::evolution::Evolution;
+use crate::Constraint;
 use crate::contraction::together;
 use crate::derivative::Direction;
 use crate::enclosure::Enclosure;
@@ -108,6 +109,7 @@ impl<const N: usize> Tube<IntervalBox<N>> {
         if evolved.contracted != Contracted::Unchanged {
             self.refresh(all);
         }
+        self.blamed(evolved.contracted, Constraint::StateEquation);
         evolved
     }
 }

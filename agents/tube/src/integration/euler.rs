@@ -1,6 +1,7 @@
 //! The steps of the seeds. Not a proof.
 
 use super::evolution::Evolution;
+use crate::Constraint;
 use crate::contraction::together;
 use crate::derivative::Direction;
 use crate::tube::Tube;
@@ -56,7 +57,7 @@ impl<const N: usize> Tube<IntervalBox<N>> {
         if contracted != Contracted::Unchanged {
             self.refresh(all);
         }
-        contracted
+        self.blamed(contracted, Constraint::StateEquation)
     }
 }
 

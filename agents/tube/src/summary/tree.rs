@@ -104,6 +104,9 @@ impl<T: Enclosure> SummaryTree<T> {
             let gone = first_whole.saturating_sub(blocks.first).min(blocks.blocks.len());
             blocks.blocks.drain(..gone);
             blocks.first += gone;
+            if blocks.blocks.capacity() > (64_usize).max(4 * blocks.blocks.len()) {
+                blocks.blocks.shrink_to(2 * blocks.blocks.len());
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::error::TubeError;
 
-/// Border `i` is `origin_s + (first + i) * step_s`, rounded to nearest; all are finite and strictly increasing.
+/// Border `i` is `origin_s + (first + i) * step_s`, product and sum each rounded to nearest; all are finite and strictly increasing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Regular {
     origin_s: f64,
@@ -69,9 +69,10 @@ impl Regular {
         self.step_s
     }
 
-    /// What [`Regular::new`] was given, if nothing was dropped since.
+    /// What [`Regular::new`] was given, or would accept, if nothing was dropped since.
     #[cfg(feature = "serde")]
     pub(super) fn as_given(&self) -> Option<(f64, f64, usize)> {
-        (self.first == 0).then_some((self.origin_s, self.step_s, self.count))
+        let given = (self.first == 0).then_some((self.origin_s, self.step_s, self.count))?;
+        Regular::new(given.0, given.1, given.2).is_ok().then_some(given)
     }
 }

@@ -62,7 +62,7 @@ pub fn domain() -> impl Strategy<Value = TimeDomain> {
 
 /// By how much slices and gates are wider than the truth; the first is for the first slice, and so on around.
 pub fn radii() -> impl Strategy<Value = Vec<f64>> {
-    prop::collection::vec(prop_oneof![Just(1.0e-6), 0.001..0.3_f64, 0.3..10.0_f64], 1..6)
+    prop::collection::vec(prop_oneof![Just(0.0), Just(1.0e-6), 0.001..0.3_f64, 0.3..10.0_f64], 1..6)
 }
 
 /// A tube that holds the trajectory of which `value` is an inclusion function.
