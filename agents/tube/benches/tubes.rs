@@ -4,7 +4,6 @@
 //!
 //! `cargo bench -p shoal-tube --bench tubes [-- FILTER]`
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -253,10 +252,10 @@ impl Bench {
 /// The milliseconds of some passes of the contractors of seed 001, section 4.3.1.
 fn sinusoid_ms(passes: usize) -> Result<f64, TubeError> {
     let time = TimeDomain::uniform(0.0, 0.01, 2_000)?;
-    let stretch = spanning(FRAC_PI_2.next_up(), PI);
+    let stretch = spanning(Interval::HALF_PI.upper(), Interval::PI.lower());
     let line = |slope: f64, start: f64| {
         Tube::from_function(time.clone(), move |t| {
-            if t.is_subset_of(stretch) { (t - FRAC_PI_2) * slope + start } else { Interval::ENTIRE }
+            if t.is_subset_of(stretch) { (t - Interval::HALF_PI) * slope + start } else { Interval::ENTIRE }
         })
     };
     let mut a = Tube::constant(time.clone(), spanning(-1.0, 1.0));
@@ -265,9 +264,9 @@ fn sinusoid_ms(passes: usize) -> Result<f64, TubeError> {
     contract_order(&mut a, &mut line(-0.1, 1.01))?;
     let since = Instant::now();
     for _ in 0..passes {
-        a.contract_central_symmetry(PI, Interval::ZERO)?;
-        a.contract_period(TAU)?;
-        contract_delay(&mut b, &mut a, -FRAC_PI_2)?;
+        a.contract_central_symmetry(Interval::PI, Interval::ZERO)?;
+        a.contract_period(Interval::TWO_PI)?;
+        contract_delay(&mut b, &mut a, -Interval::HALF_PI)?;
         a.contract_derivative(&b, Direction::Both)?;
     }
     Ok(elapsed_ns(since) / 1e6)

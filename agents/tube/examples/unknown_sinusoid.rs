@@ -13,7 +13,6 @@ use shoal_tube::contractor::{contract_delay, contract_order};
 use shoal_tube::figure::{DrawTube, over_time};
 use shoal_tube::{Direction, TimeDomain, Tube, TubeError};
 use std::error::Error;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::time::Instant;
 
 /// The signal and its derivative.
@@ -30,11 +29,14 @@ impl Signal {
         let mut a = Tube::constant(time.clone(), Interval::ENTIRE);
         let b = a.clone();
         // The lines hold from pi / 2 to pi: for no slice that is partly outside.
-        let half_pi = Interval::spanning(FRAC_PI_2, FRAC_PI_2.next_up());
-        let stretch = Interval::spanning(half_pi.upper(), PI);
+        let stretch = Interval::spanning(Interval::HALF_PI.upper(), Interval::PI.lower());
         let line = |slope: f64, start: f64| {
             Tube::from_function(time.clone(), move |t| {
-                if t.is_subset_of(stretch) { (t - half_pi) * slope + start } else { Interval::ENTIRE }
+                if t.is_subset_of(stretch) {
+                    (t - Interval::HALF_PI) * slope + start
+                } else {
+                    Interval::ENTIRE
+                }
             })
         };
         let constant = |value| Tube::constant(time.clone(), Interval::spanning(value, value));
@@ -46,15 +48,15 @@ impl Signal {
     }
 
     fn contract_symmetry_and_period(&mut self) -> Result<(), TubeError> {
-        self.a.contract_central_symmetry(PI, Interval::ZERO)?;
-        self.a.contract_period(TAU)?;
+        self.a.contract_central_symmetry(Interval::PI, Interval::ZERO)?;
+        self.a.contract_period(Interval::TWO_PI)?;
         Ok(())
     }
 
     /// Applies every contractor once.
     fn contract(&mut self) -> Result<(), TubeError> {
         self.contract_symmetry_and_period()?;
-        contract_delay(&mut self.b, &mut self.a, -FRAC_PI_2)?;
+        contract_delay(&mut self.b, &mut self.a, -Interval::HALF_PI)?;
         self.a.contract_derivative(&self.b, Direction::Both)?;
         Ok(())
     }

@@ -3,7 +3,7 @@
 use crate::contraction::together;
 use crate::enclosure::Enclosure;
 use crate::error::{Constraint, TubeError};
-use crate::time_domain::exactly;
+use crate::time_domain::duration_s;
 use crate::tube::Tube;
 use shoal_interval::contractor::Contracted;
 use std::collections::VecDeque;
@@ -130,7 +130,7 @@ impl<T: Enclosure> Tube<T> {
             slices[start..].iter_mut().zip(&mut gates[start + 1..]).zip(derivative.slices.range(start..));
         for (index, ((slice, next_gate), &slope)) in (start..).zip(parts) {
             let to_s = self.domain.border_at(index + 1);
-            let reached = gate + slope * (exactly(to_s) - from_s);
+            let reached = gate + slope * duration_s(from_s, to_s);
             let Some(narrowed) = narrow_both(slice, next_gate, gate, reached) else {
                 stuck = Some(index);
                 break;
@@ -170,7 +170,7 @@ impl<T: Enclosure> Tube<T> {
         let parts = slices[..end].iter_mut().zip(&mut gates[..end]).zip(derivative.slices.range(..end));
         for (index, ((slice, next_gate), &slope)) in (0..end).zip(parts).rev() {
             let from_s = self.domain.border_at(index);
-            let left = gate - slope * (exactly(to_s) - from_s);
+            let left = gate - slope * duration_s(from_s, to_s);
             let Some(narrowed) = narrow_both(slice, next_gate, gate, left) else {
                 stuck = Some(index);
                 break;

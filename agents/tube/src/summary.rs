@@ -5,7 +5,7 @@ mod tree;
 pub(crate) use tree::{Part, Step, SummaryTree};
 
 use crate::enclosure::Enclosure;
-use crate::time_domain::{TimeDomain, exactly};
+use crate::time_domain::{TimeDomain, duration_s};
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -85,7 +85,7 @@ impl<T: Enclosure> Slices<'_, T> {
             let end_s = self.domain.border_at(index + 1);
             hull = hull | slice;
             innermost = slice.innermost(innermost);
-            integral = integral.and_slice(slice * (exactly(end_s) - start_s));
+            integral = integral.and_slice(slice * duration_s(start_s, end_s));
             start_s = end_s;
         }
         Summary { hull, innermost, integral }

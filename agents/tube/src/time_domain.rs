@@ -271,7 +271,7 @@ impl TimeDomain {
     /// The length of slice `index`, which the caller knows to exist.
     #[inline]
     pub(crate) fn duration_at(&self, index: usize) -> Interval {
-        exactly(self.border_at(index + 1)) - self.border_at(index)
+        duration_s(self.border_at(index), self.border_at(index + 1))
     }
 
     pub(crate) fn release_spare_memory(&mut self) {
@@ -347,6 +347,13 @@ impl PartialEq for TimeDomain {
 #[inline]
 pub(crate) fn exactly(time_s: f64) -> Interval {
     Interval::spanning(time_s, time_s)
+}
+
+/// The time from one border to the next, in seconds.
+#[inline]
+pub(crate) fn duration_s(start_s: f64, end_s: f64) -> Interval {
+    // The difference of positive numbers is exact if one is at most twice the other (Sterbenz).
+    if 0.5 * end_s <= start_s { exactly(end_s - start_s) } else { exactly(end_s) - start_s }
 }
 
 fn finite(time_s: f64) -> Result<f64, TubeError> {

@@ -4,7 +4,7 @@ use crate::contraction::together;
 use crate::derivative::Direction;
 use crate::enclosure::Enclosure;
 use crate::error::{Constraint, TubeError};
-use crate::time_domain::{Place, exactly};
+use crate::time_domain::Place;
 use crate::tube::Tube;
 use shoal_interval::Interval;
 use shoal_interval::contractor::Contracted;
@@ -92,7 +92,10 @@ pub(super) fn possible_times<T: Enclosure>(tube: &Tube<T>, values: T, times_s: I
     tube.invert_within(values, times_s) | earlier_s | later_s
 }
 
-/// The delay, axis or period, if it is a finite number of seconds.
-pub(super) fn finite(time_s: f64) -> Result<Interval, TubeError> {
-    if time_s.is_finite() { Ok(exactly(time_s)) } else { Err(TubeError::NotATime { time_s }) }
+/// The delay, axis or period, if it is between finite numbers of seconds.
+pub(super) fn finite(time_s: Interval) -> Result<Interval, TubeError> {
+    if !time_s.is_empty() && time_s.is_bounded() {
+        return Ok(time_s);
+    }
+    Err(TubeError::NotATime { time_s: if time_s.is_empty() { f64::NAN } else { time_s.width() } })
 }

@@ -65,8 +65,10 @@ pub fn contract_uncertain_delay<T: Enclosure>(
     }
     if contracted != Contracted::Empty {
         let delay_s = *delay_s;
-        let of_x = x.narrow_everywhere(Direction::Forward, |_, times_s| y.over(times_s - delay_s).ok());
-        let of_y = y.narrow_everywhere(Direction::Forward, |_, times_s| x.over(times_s + delay_s).ok());
+        let mut earlier = Sliding::new(y);
+        let of_x = x.narrow_everywhere(Direction::Forward, |_, times_s| earlier.over(times_s - delay_s));
+        let mut later = Sliding::new(x);
+        let of_y = y.narrow_everywhere(Direction::Forward, |_, times_s| later.over(times_s + delay_s));
         contracted = together(contracted, together(of_x, of_y));
     }
     let contracted = both_or_none(x, y, contracted, Constraint::Delay);
@@ -95,6 +97,47 @@ fn contract_delay_alone<T: Enclosure>(x: &Tube<T>, y: &Tube<T>, delay_s: &mut In
         }
     }
     Interval::EMPTY
+}
+
+/// What a tube says over times that move forward. Each slice is looked at twice, however long the times are.
+struct Sliding<'a, T: Enclosure> {
+    tube: &'a Tube<T>,
+    /// The hulls of the slices from each to [`middle`](Sliding::middle), the longest last.
+    older: Vec<T>,
+    middle: usize,
+    /// The hull of the slices from the middle to the end.
+    newer: T,
+    end: usize,
+}
+
+impl<'a, T: Enclosure> Sliding<'a, T> {
+    fn new(tube: &'a Tube<T>) -> Sliding<'a, T> {
+        Sliding { tube, older: Vec::new(), middle: 0, newer: T::EMPTY, end: 0 }
+    }
+
+    /// [`over`](Tube::over); `None` outside the domain. Times that move back are allowed, but cost a look at each slice.
+    fn over(&mut self, times_s: Interval) -> Option<T> {
+        if times_s.is_empty() || times_s.is_point() {
+            return self.tube.over(times_s).ok();
+        }
+        let range = self.tube.domain.slices_over(times_s).ok()?;
+        let first = self.middle - self.older.len();
+        if !(first..self.middle).contains(&range.start) || range.end < self.end {
+            let mut hull = T::EMPTY;
+            self.older.clear();
+            self.older.extend(self.tube.slices.range(range.clone()).rev().map(|&slice| {
+                hull = hull | slice;
+                hull
+            }));
+            (self.middle, self.newer, self.end) = (range.end, T::EMPTY, range.end);
+        }
+        self.older.truncate(self.middle - range.start);
+        for &slice in self.tube.slices.range(self.end..range.end) {
+            self.newer = self.newer | slice;
+        }
+        self.end = range.end;
+        self.older.last().map(|&older| older | self.newer)
+    }
 }
 
 #[cfg(test)]
@@ -158,5 +201,19 @@ mod tests {
         let mut no_delay = Interval::EMPTY;
         assert_eq!(contract_uncertain_delay(&mut sin, &mut cos, &mut no_delay), Contracted::Empty);
         assert!(sin.is_empty() && cos.is_empty());
+    }
+
+    #[test]
+    fn sliding_times_are_asked_as_any_others() {
+        let (sin, _) = waves(100);
+        let mut sliding = Sliding::new(&sin);
+        for width_s in [0.05, 0.1, 0.73, 4.0] {
+            for step in 0..120 {
+                let start_s = f64::from(step) * 0.09;
+                let times_s = over(start_s, start_s + width_s);
+                assert_eq!(sliding.over(times_s), sin.over(times_s).ok(), "{times_s}");
+            }
+        }
+        assert_eq!(sliding.over(over(2.0, 2.0)), sin.over(over(2.0, 2.0)).ok());
     }
 }
