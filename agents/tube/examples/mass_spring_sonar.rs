@@ -328,36 +328,21 @@ fn draw_boxes(
 mod tests {
     use super::*;
 
+    /// The whole problem, from nothing but the box that the seed begins with: it takes a while.
     #[test]
     fn the_start_is_found_and_the_truth_is_never_lost() {
-        let duration_s = 12.0;
+        let duration_s = 60.0;
         let swing = Swing::new(duration_s);
         let pings = pings(&swing, duration_s);
         let system = system(&pings);
         let mut states = unknown(&pings, duration_s).unwrap();
-        // A rough guess of the start, to be quick.
-        let guess = IntervalBox::from([Interval::spanning(6.0, 13.0), Interval::spanning(-4.0, 4.0)]);
-        let strangled = system.strangle(&mut states, 0, guess, &Search::new([0.25, 0.5])).unwrap();
-        println!(
-            "{} contractions, {} kept, {:.3}",
-            strangled.contractions,
-            strangled.kept.len(),
-            strangled.hull()
-        );
-        assert!(strangled.hull().contains(&swing.at(0.0)) && holds(&states, &swing).unwrap());
-        for k0_s in [5.0, 10.0] {
+        for k0_s in (0..=60).step_by(5).map(f64::from) {
             let strangled = strangle(&system, &mut states, k0_s).unwrap();
-            println!(
-                "{} contractions, {} kept, {:.3}",
-                strangled.contractions,
-                strangled.kept.len(),
-                strangled.hull()
-            );
             assert!(strangled.hull().contains(&swing.at(k0_s)) && strangled.undecided.is_empty());
             assert!(holds(&states, &swing).unwrap());
         }
-        println!("{:?} {:?}", widths(&states, 0), widths(&states, 1));
-        assert!(states.at(0.0).unwrap()[0].width() < 2.0 && widths(&states, 0).0 < 4.0);
+        assert!(states.at(0.0).unwrap()[0].width() < 2.0);
+        assert!(widths(&states, 0).0 < 0.85 && widths(&states, 1).0 < 1.6);
     }
 
     #[test]
