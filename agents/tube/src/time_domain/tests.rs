@@ -129,7 +129,8 @@ proptest! {
 
 #[test]
 fn the_short_way_to_a_duration_gives_the_same() {
-    let times_s = [-3.0, -1.0, -5e-324, 0.0, 5e-324, 1.5e-323, 0.1, 0.3, 1.0, 1.9, 2.0, 1e9, 1e9 + 0.3, 1e300];
+    let times_s =
+        [-3.0, -1.0, -5e-324, 0.0, 5e-324, 1.5e-323, 0.1, 0.3, 1.0, 1.9, 2.0, 1e9, 1e9 + 0.3, 1e300];
     for (index, &start_s) in times_s.iter().enumerate() {
         for &end_s in &times_s[index + 1..] {
             assert_eq!(duration_s(start_s, end_s), exactly(end_s) - start_s, "{start_s} to {end_s}");
