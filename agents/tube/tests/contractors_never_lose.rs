@@ -133,7 +133,7 @@ proptest! {
 
     #[test]
     fn periods(amplitude in 0.1..5.0_f64, period in prop_oneof![Just(0.5), Just(1.0), 0.3..4.0_f64], domain in domain(), radii in radii()) {
-        let turns = |time: Interval| (time / period * std::f64::consts::TAU).sin() * amplitude;
+        let turns = |time: Interval| (time / period * Interval::TWO_PI).sin() * amplitude;
         check(|scale| [around(&domain, &radii, scale, turns)], [&turns], |[x]| x.contract_period(exactly(period)).unwrap())?;
     }
 
