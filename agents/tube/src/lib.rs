@@ -173,7 +173,7 @@
 //! # Seeing
 //!
 //! Module [`figure`] draws tubes beside the truth. The examples leave theirs in `target/figures`: `unknown_sinusoid`,
-//! `uncertain_delay`, `two_circles`, `six_vehicles`.
+//! `uncertain_delay`, `two_circles`, `six_vehicles`, `mass_spring_sonar`.
 //!
 //! Source: seed 001, chapters 4 and 5; slices and gates as in Codac.
 
