@@ -26,7 +26,7 @@ impl<T: Enclosure> Tube<T> {
     ///
     /// Without a derivative the tube learns nothing, unless the time is exactly a gate, which then keeps what is in the
     /// value. [`contract_evaluation_with_derivative`](Tube::contract_evaluation_with_derivative) is sharper. When nothing
-    /// is left, time, value and tube are empty.
+    /// is left, time, value and tube are empty; so they are for an empty time: an observation at no time contradicts itself.
     ///
     /// ```
     /// use shoal_interval::Interval;

@@ -7,7 +7,8 @@ use shoal_interval::{Interval, IntervalBox, IntervalMatrix};
 /// given by enclosures.
 ///
 /// There are three ways to write one: an [`Expression`], whose derivatives are found by itself; a closure `|times_s, states|
-/// velocities` where there are inputs or noise, tubes that the closure holds and asks for `input.over(times_s)`; and
+/// velocities` where there are inputs or noise, tubes that the closure holds and asks for `input.over(times_s)`
+/// (the tube of a command that jumps has an empty gate at the jump, so never ask it at one time); and
 /// [`Autonomous`] or [`Driven`] with a Jacobian of your own. With a Jacobian enclosures are far tighter.
 ///
 /// ```
