@@ -29,13 +29,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let seen = q_intersection(&separators[..taken], outliers);
         let paving = pave(&seen, initial, &Options::new(0.05))?;
         println!(
-            "{taken} bearings, {outliers} outliers: area between {:.4} and {:.4} m2 in {} parts, {} bisections",
+            "bearings {taken}, outliers {outliers}: area between {:.4} and {:.4} m2 in {} part(s), {} bisections",
             paving.inner_volume().lower(),
             paving.outer_volume().upper(),
             paving.parts(),
             paving.statistics().bisections,
         );
-        let title = format!("{taken} bearings, of which {outliers} may be wrong");
+        let title = format!("Bearings seen: {taken}; of these may be wrong: {outliers}");
         let mut figure = Figure::new(initial)?.title(&title).paving(&paving).axes("x (m)", "y (m)");
         for &(beacon, bearing) in &bearings[..taken] {
             for side in [bearing.lower(), bearing.upper()] {
