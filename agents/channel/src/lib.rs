@@ -7,6 +7,7 @@
 //!
 //! | file | idea |
 //! |---|---|
+//! | `acoustics/` | the physics of sound |
 //! | `channel.rs` | windows, wakes, answers |
 //! | `birth.rs` | from scenario to newborn AUVs |
 //! | `vehicle.rs` | one AUV as the water knows it |
@@ -20,6 +21,7 @@
 //! | `digest.rs` | one hash of everything |
 //! | `tally.rs` | what it all amounts to |
 
+pub mod acoustics;
 pub mod birth;
 pub mod body;
 pub mod channel;

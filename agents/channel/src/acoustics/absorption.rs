@@ -1,0 +1,1 @@
+//! What sea water swallows of sound.

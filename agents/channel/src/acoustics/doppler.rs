@@ -1,0 +1,1 @@
+//! How motion stretches and squeezes sound.

@@ -1,0 +1,1 @@
+//! Bit and packet errors of a modem's modulation.

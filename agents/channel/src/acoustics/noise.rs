@@ -1,0 +1,1 @@
+//! Ambient noise of the sea.

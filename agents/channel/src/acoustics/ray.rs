@@ -1,0 +1,1 @@
+//! Exact rays in piecewise-linear profiles.

@@ -1,0 +1,1 @@
+//! What surface and bottom give back of sound.

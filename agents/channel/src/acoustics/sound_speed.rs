@@ -1,0 +1,1 @@
+//! Speed of sound in sea water.
