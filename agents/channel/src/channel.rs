@@ -275,7 +275,7 @@ impl Channel {
         }
         let position_m = pose.position_m.into();
         let bytes = wavefront.frame.bytes().len() as u16;
-        let fate = Fate::Emitted { position_m, bytes, box_width_m, beyond_range };
+        let fate = Fate::Emitted { position_m, bytes, box_width_m, beyond_range, packet_s: 0.0 };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
         self.tally.check(from, at, violation);
     }
@@ -304,14 +304,21 @@ impl Channel {
         for (arrival, Flight { wavefront, to: receiver_id, .. }) in arrived {
             let receiver = &mut self.vehicles[receiver_id.0 as usize];
             let (to, range_m) = (receiver_id, arrival.range_m);
-            let lost = |reason| Fate::Lost { to: Some(to), reason, range_m };
+            let lost = |reason| Fate::lost(Some(to), reason, range_m);
             let fate = if range_m > wavefront.range_m {
                 lost(LossReason::Range)
             } else if !receiver.alive {
                 lost(LossReason::Dead)
             } else {
                 receiver.hear(arrival.at, wavefront.from.0, &wavefront.frame);
-                Fate::Heard { to, range_m, travel_s: arrival.travel_s, box_width_m: wavefront.box_width_m }
+                Fate::Heard {
+                    to,
+                    range_m,
+                    travel_s: arrival.travel_s,
+                    box_width_m: wavefront.box_width_m,
+                    reception: None,
+                    outlier: false,
+                }
             };
             let (from, sequence) = (wavefront.from, wavefront.sequence);
             self.tally.traffic(to, Traffic { at: arrival.at, from, sequence, fate });
@@ -389,7 +396,7 @@ impl Channel {
             if ping.at < takes_effect {
                 // It never left, so it has no number but its place in the answer.
                 let sequence = index as u32;
-                let fate = Fate::Lost { to: None, reason: LossReason::Late, range_m: 0.0 };
+                let fate = Fate::lost(None, LossReason::Late, 0.0);
                 self.tally.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
             } else {
                 vehicle.plan(ping.clone());

@@ -3,7 +3,7 @@
 use shoal_bus::chronicle::{Entry, Violation, What};
 use shoal_bus::message::AuvId;
 use shoal_bus::summary::{
-    Agents, Containment, Flock, LostAgent, Pings, SUMMARY_FORMAT, Summary, ViolationLine, Widths,
+    Agents, Containment, Flock, LostAgent, Misled, Pings, SUMMARY_FORMAT, Summary, ViolationLine, Widths,
 };
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
@@ -68,6 +68,10 @@ impl Tally {
                     LossReason::Noise => &mut lost.noise,
                     LossReason::Collision => &mut lost.collision,
                     LossReason::HalfDuplex => &mut lost.half_duplex,
+                    LossReason::Shadow => &mut lost.shadow,
+                    LossReason::Asleep => &mut lost.asleep,
+                    LossReason::Band => &mut lost.band,
+                    LossReason::Busy => &mut lost.busy,
                     LossReason::Late => &mut lost.late,
                     LossReason::Dead => &mut lost.dead,
                 } += 1;
@@ -155,7 +159,7 @@ impl Tally {
             unit: violation.coordinate.unit().to_owned(),
         };
         let first = self.first_violations.iter().map(line).collect();
-        Containment { checks: self.checks, violations: self.violations, first }
+        Containment { checks: self.checks, violations: self.violations, first, misled: Misled::default() }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Acted, Born, Event, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{Acted, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 
@@ -117,7 +117,7 @@ impl Vehicle {
             return Err("its setpoint is not a velocity".to_owned());
         }
         let ahead_ns = wake.reaction_ns + 2 * wake.period_ns;
-        let scheduled = orders.ping.map_or(0, |ping| ahead_ns / ping.period_ns) as usize;
+        let scheduled = shortest_gap_ns(&orders.access).map_or(0, |gap_ns| ahead_ns / gap_ns) as usize;
         if self.planned.len() + acted.pings.len() > 2 * scheduled + PINGS_OUTSTANDING {
             let waiting = self.planned.len();
             return Err(format!("it booked {} pings on top of {waiting}", acted.pings.len()));
@@ -210,8 +210,20 @@ impl Vehicle {
 fn kind_rank(sense: &Sense) -> u8 {
     match sense {
         Sense::Inertial { .. } => 0,
-        Sense::Depth { .. } => 1,
-        Sense::Gnss { .. } => 2,
-        Sense::Heard { .. } => 3,
+        Sense::Dvl { .. } => 1,
+        Sense::Depth { .. } => 2,
+        Sense::Gnss { .. } => 3,
+        Sense::Heard { .. } => 4,
+        Sense::Held => 5,
+    }
+}
+
+/// Local nanoseconds between pings, on average; `None` for a silent AUV.
+fn shortest_gap_ns(access: &MediumAccess) -> Option<i64> {
+    match *access {
+        MediumAccess::Silent => None,
+        MediumAccess::Periodic { period_ns, .. } | MediumAccess::Csma { period_ns, .. } => Some(period_ns),
+        MediumAccess::Aloha { mean_period_ns, .. } => Some(mean_period_ns),
+        MediumAccess::Slotted { slot_ns, slots, .. } => Some(slot_ns.saturating_mul(i64::from(slots))),
     }
 }
