@@ -15,6 +15,7 @@
 //! | `clock.rs` | true clocks |
 //! | `sensors.rs` | measurements inside stated bounds |
 //! | `sound.rs` | wavefronts and arrivals |
+//! | `reception.rs` | which packets a modem decodes |
 //! | `check.rs` | enclosures against the truth |
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
@@ -30,6 +31,7 @@ pub mod clock;
 pub mod digest;
 pub mod draw;
 pub mod flock;
+pub mod reception;
 pub mod sensors;
 pub mod sound;
 mod tally;
