@@ -1,7 +1,7 @@
 //! Speed of sound in sea water, by five published formulas.
 //!
-//! They are fits to laboratory measurements and agree to a few tenths of a metre per second where all are valid; outside
-//! of its range each is an extrapolation. [`SoundSpeedFormula`] names one and evaluates it by depth.
+//! They are fits to laboratory measurements and agree to better than 1 m/s where all are valid (salinity 33 to 37, the upper
+//! 1,000 m); outside of its range each is an extrapolation. [`SoundSpeedFormula`] names one and evaluates it by depth.
 //!
 //! | formula | temperature °C | salinity psu | down to |
 //! |---|---|---|---|
@@ -104,7 +104,7 @@ pub fn coppens(temperature_c: f64, salinity_psu: f64, depth_m: f64) -> f64 {
 
 /// Pressure of the sea in dbar above the atmosphere, at a depth in metres (positive down, to 11,000 m) and a latitude.
 ///
-/// For a standard ocean of 0 °C and 35 psu: other water changes it by 0.2 % at most. P. M. Saunders, "Practical conversion
+/// For a standard ocean of 0 °C and 35 psu: fresh water presses 3 % less. P. M. Saunders, "Practical conversion
 /// of pressure to depth", J. Phys. Oceanogr. 11 (1981), 573-574, solved for the pressure.
 ///
 /// ```

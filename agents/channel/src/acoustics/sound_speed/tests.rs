@@ -86,7 +86,7 @@ proptest! {
         let reference = mackenzie(t, s, d);
         for formula in [Medwin, ChenMillero, DelGrosso, Coppens] {
             let found = formula.speed_m_s(t, s, d);
-            prop_assert!((found - reference).abs() < 1.5, "{formula:?} {found} for {reference}");
+            prop_assert!((found - reference).abs() < 0.9, "{formula:?} {found} for {reference}");
         }
     }
 
