@@ -55,7 +55,7 @@ impl FluidBottom {
     /// a bottom that swallows nothing lets everything in.
     pub fn loss_db(&self, water_density_kg_m3: f64, water_sound_speed_m_s: f64, grazing_rad: f64) -> f64 {
         let pressure = self.reflection(water_density_kg_m3, water_sound_speed_m_s, grazing_rad);
-        -db_from_power(pressure * pressure)
+        db_from_power(1.0 / (pressure * pressure))
     }
 }
 

@@ -43,7 +43,7 @@ fn all_sound_comes_back_below_the_critical_angle() {
     let bottom =
         FluidBottom { density_kg_m3: 1900.0, sound_speed_m_s: 1650.0, attenuation_db_per_wavelength: 0.0 };
     let critical_rad = pxfm::f_acos(1500.0 / 1650.0);
-    assert_eq!(bottom.loss_db(1000.0, 1500.0, 0.99 * critical_rad), 0.0);
+    assert!((0.0..1e-12).contains(&bottom.loss_db(1000.0, 1500.0, 0.99 * critical_rad)));
     assert!(bottom.loss_db(1000.0, 1500.0, 1.01 * critical_rad) > 1.0);
 }
 
