@@ -1,10 +1,16 @@
 //! The table `[environment]`: the water and the sound in it.
 
-use crate::model::{Environment, Level, Region, Vec3};
+use crate::model::{CurrentField, Environment, Level, Region, Vec3};
 use crate::number::Rule;
 use crate::reader::Table;
 
-pub(crate) const LEVELS: &[(&str, Level)] = &[("ideal", Level::Ideal)];
+/// Levels by name.
+pub(crate) const LEVELS: &[(&str, LevelName)] = &[("ideal", LevelName::Ideal)];
+
+#[derive(Clone, Copy)]
+pub(crate) enum LevelName {
+    Ideal,
+}
 
 pub(crate) fn environment(document: &Table<'_>) -> Option<Environment> {
     if !document.has("environment") {
@@ -18,7 +24,7 @@ pub(crate) fn environment(document: &Table<'_>) -> Option<Environment> {
         table.missing("area_m");
     }
     let area_m = table.region("area_m").filter(|area| has_volume(&table, area));
-    let level = table.choice("level", LEVELS, Level::Ideal);
+    let level = table.choice("level", LEVELS, LevelName::Ideal);
     let sound_speed_m_s = table.number("sound_speed_m_s", Some(1500.0), Rule::Positive);
     let sound_speed_error_m_s = table.number("sound_speed_error_m_s", Some(0.0), Rule::NotNegative);
     let current_m_s = table.vec3("current_m_s", Some([0.0; 3]), Rule::Finite);
@@ -26,11 +32,14 @@ pub(crate) fn environment(document: &Table<'_>) -> Option<Environment> {
     table.finish();
     Some(Environment {
         area_m: area_m?,
-        level: level?,
+        level: match level? {
+            LevelName::Ideal => Level::Ideal,
+        },
         sound_speed_m_s: sound_speed_m_s?,
         sound_speed_error_m_s: sound_speed_error_m_s?,
         current_m_s: current_m_s?,
         current_error_m_s: current_error_m_s?,
+        current_field: CurrentField::Uniform,
     })
 }
 

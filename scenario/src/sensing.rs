@@ -2,12 +2,12 @@
 
 use toml::de::DeValue;
 
-use crate::model::{Gnss, Modem, Sensors};
+use crate::model::{Gnss, MediumAccess, Modem, Sensors};
 use crate::number::Rule;
 use crate::reader::Table;
 
 /// Bytes of a ping: sender, sequence, emission interval, position box and velocity box.
-const PING_BYTES: u64 = 32;
+const PING_BYTES: u64 = 31;
 /// Fastest that anything periodic on an AUV may happen.
 pub(crate) const PERIOD_MIN_NS: i64 = 1_000_000;
 /// Slowest that an AUV may wake.
@@ -22,6 +22,7 @@ pub(crate) fn sensors(group: &Table<'_>) -> Option<Sensors> {
             pitch_error_rad: 0.01,
             speed_error_m_s: 0.02,
             depth_error_m: Some(0.1),
+            dvl: None,
             gnss: None,
         });
     }
@@ -44,6 +45,7 @@ pub(crate) fn sensors(group: &Table<'_>) -> Option<Sensors> {
         pitch_error_rad: pitch_error_rad?,
         speed_error_m_s: speed_error_m_s?,
         depth_error_m: depth_error_m?,
+        dvl: None,
         gnss: gnss?,
     })
 }
@@ -67,11 +69,14 @@ pub(crate) fn modem(group: &Table<'_>) -> Option<Modem> {
     if !group.has("modem") {
         group.get("modem");
         return Some(Modem {
+            name: "ideal".to_string(),
             range_m: 500.0,
-            ping_period_ns: Some(SECOND_NS),
-            ping_phase_ns: None,
+            access: MediumAccess::Periodic { period_ns: SECOND_NS, phase_ns: None },
             timestamp_error_s: 1e-5,
             frame_bytes: 64,
+            physical: None,
+            addresses: None,
+            duty_cycle: None,
         });
     }
     let table = group.table("modem", "[group.modem]")?;
@@ -85,11 +90,17 @@ pub(crate) fn modem(group: &Table<'_>) -> Option<Modem> {
     let frame_bytes = frame_bytes(&table);
     table.finish();
     Some(Modem {
+        name: "ideal".to_string(),
         range_m: range_m?,
-        ping_period_ns: ping_period_ns?,
-        ping_phase_ns: ping_phase_ns?,
+        access: ping_period_ns?.map_or(MediumAccess::Silent, |period_ns| MediumAccess::Periodic {
+            period_ns,
+            phase_ns: ping_phase_ns.flatten(),
+        }),
         timestamp_error_s: timestamp_error_s?,
         frame_bytes: frame_bytes?,
+        physical: None,
+        addresses: None,
+        duty_cycle: None,
     })
 }
 

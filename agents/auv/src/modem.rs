@@ -1,6 +1,6 @@
 //! When to ping, and what to say: a prediction of the own position for the moment of emission, rounded outwards.
 
-use shoal_bus::message::{AuvId, Born, PingSchedule, PlannedPing, Sensed, Wake};
+use shoal_bus::message::{AuvId, Born, MediumAccess, PlannedPing, Sensed, Wake};
 use shoal_bus::ping::{Frame, FrameError, Ping};
 use shoal_bus::time::LocalTime;
 
@@ -11,33 +11,36 @@ use crate::estimator::Prediction;
 pub struct Modem {
     auv: AuvId,
     wake: Wake,
-    schedule: Option<PingSchedule>,
+    access: MediumAccess,
     next: LocalTime,
-    sequence: u16,
+    sequence: u8,
 }
 
 impl Modem {
     /// The modem of a newborn.
     pub fn new(born: &Born) -> Self {
-        let schedule = born.orders.ping;
-        let next = schedule.map_or(LocalTime::ZERO, |schedule| schedule.first);
-        Self { auv: born.auv, wake: born.wake, schedule, next, sequence: 0 }
+        let access = born.orders.access;
+        let next = match access {
+            MediumAccess::Periodic { first, .. } => first,
+            _ => LocalTime::ZERO,
+        };
+        Self { auv: born.auv, wake: born.wake, access, next, sequence: 0 }
     }
 
     /// The local time of the next ping, if this tick is the last that may book it.
     pub fn due(&mut self, sensed: &Sensed) -> Option<LocalTime> {
-        let schedule = self.schedule?;
+        let MediumAccess::Periodic { period_ns, .. } = self.access else { return None };
         let earliest = sensed.stamp + self.wake.reaction_ns;
         if self.next < earliest {
             // Its moment passed before this AUV could book it: at birth, or after ticks were missed.
-            let missed = (earliest - self.next + schedule.period_ns - 1) / schedule.period_ns;
-            self.next = self.next + missed * schedule.period_ns;
+            let missed = (earliest - self.next + period_ns - 1) / period_ns;
+            self.next = self.next + missed * period_ns;
         }
         if self.next >= earliest + self.wake.period_ns {
             return None;
         }
         let at = self.next;
-        self.next = at + schedule.period_ns;
+        self.next = at + period_ns;
         Some(at)
     }
 
@@ -45,7 +48,7 @@ impl Modem {
     pub fn plan(&mut self, at: LocalTime, prediction: &Prediction) -> Option<PlannedPing> {
         let frame = self.frame(prediction).ok()?;
         self.sequence = self.sequence.wrapping_add(1);
-        Some(PlannedPing { at, frame })
+        Some(PlannedPing { at, listen_ns: 0, frame })
     }
 
     fn frame(&self, prediction: &Prediction) -> Result<Frame, FrameError> {
@@ -65,9 +68,9 @@ mod tests {
     use super::*;
 
     fn modem(first_ns: i64, period_ns: i64) -> Modem {
-        let schedule = Some(PingSchedule { first: LocalTime::from_ns(first_ns), period_ns });
+        let access = MediumAccess::Periodic { first: LocalTime::from_ns(first_ns), period_ns };
         let wake = Wake { first_tick: LocalTime::ZERO, period_ns: 100, reaction_ns: 250 };
-        Modem { auv: AuvId(0), wake, schedule, next: LocalTime::from_ns(first_ns), sequence: 0 }
+        Modem { auv: AuvId(0), wake, access, next: LocalTime::from_ns(first_ns), sequence: 0 }
     }
 
     /// All bookings over ticks 0, 100, ..., as (tick, ping).

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 use pxfm::f_sincos;
 use shoal_bus::message::{
-    AuvId, BodyBounds, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, ModemBounds,
-    Orders, PingSchedule, Sabotage, Wake,
+    AuvId, BodyBounds, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, MediumAccess,
+    ModemBounds, Orders, Sabotage, Wake,
 };
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
@@ -65,17 +65,14 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
     let birth = clock.read(SimTime::ZERO);
     let mut within = |period_ns: i64| 1 + (phase.unit() * (period_ns - 1) as f64) as i64;
     let first_tick = birth + within(group.control_period_ns);
-    let first_ping = group.modem.ping_period_ns.map(&mut within);
+    let first_ping_ns = birth_phase_ns(&group.modem.access).map(&mut within);
     let first_fix = birth + group.sensors.gnss.as_ref().map_or(0, |gnss| within(gnss.period_ns));
 
     let (position_m, attitude) = placed(group, index, &mut start);
     let prior_position_m = prior_box(group, &position_m, &mut start);
     let body =
         Body::new(&group.kind, water.current_m_s, scenario.knot_ns, position_m, attitude, (seed, auv, noise));
-    let ping = group.modem.ping_period_ns.zip(first_ping).map(|(period_ns, drawn_ns)| PingSchedule {
-        first: group.modem.ping_phase_ns.map_or(birth + drawn_ns, LocalTime::from_ns),
-        period_ns,
-    });
+    let access = access(&group.modem.access, birth + first_ping_ns.unwrap_or(0), &mut phase);
     let offset_s = group.clock.offset_bound_s + 4.0 * STAMP_NS as f64 * 1e-9;
     let born = Born {
         auv,
@@ -91,7 +88,7 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         prior_position_m,
         body: body_bounds(scenario, group),
         modem: modem_bounds(scenario, group),
-        orders: orders(scenario, group, index, ping),
+        orders: orders(scenario, group, index, access),
     };
     Newborn {
         clock,
@@ -99,6 +96,27 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         sensors: Sensors::new(&group.sensors, seed, auv, noise, first_fix),
         arrivals: Draws::new(seed, Purpose::Arrival, auv, noise),
         born,
+    }
+}
+
+/// The period within which the first ping is drawn.
+fn birth_phase_ns(access: &model::MediumAccess) -> Option<i64> {
+    match *access {
+        model::MediumAccess::Silent | model::MediumAccess::Slotted { .. } => None,
+        model::MediumAccess::Periodic { period_ns, .. } | model::MediumAccess::Csma { period_ns, .. } => {
+            Some(period_ns)
+        }
+        model::MediumAccess::Aloha { mean_period_ns } => Some(mean_period_ns),
+    }
+}
+
+/// When an AUV pings, as it is told; `drawn` is the first ping where none is stated.
+fn access(of: &model::MediumAccess, drawn: LocalTime, _draws: &mut Draws) -> MediumAccess {
+    match *of {
+        model::MediumAccess::Periodic { period_ns, phase_ns } => {
+            MediumAccess::Periodic { first: phase_ns.map_or(drawn, LocalTime::from_ns), period_ns }
+        }
+        _ => MediumAccess::Silent,
     }
 }
 
@@ -180,6 +198,7 @@ fn body_bounds(scenario: &Scenario, group: &Group) -> BodyBounds {
         current_m_s: std::array::from_fn(|axis| {
             around(environment.current_m_s[axis], environment.current_error_m_s[axis])
         }),
+        current_change_m_s2: [0.0; 3],
         disturbance_m_s: group.kind.disturbance_m_s.map(|bound_m_s| around(0.0, bound_m_s + integrator_m_s)),
     }
 }
@@ -201,12 +220,12 @@ fn modem_bounds(scenario: &Scenario, group: &Group) -> ModemBounds {
     }
 }
 
-fn orders(scenario: &Scenario, group: &Group, index: u32, ping: Option<PingSchedule>) -> Orders {
+fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) -> Orders {
     let model::Estimator::Tube { horizon_ns } = group.estimator;
     Orders {
         estimator: Estimator::Tube { horizon_ns },
         controller: controller(scenario, group, index),
-        ping,
+        access,
         area_m: scenario.environment.area_m.map(|[least, greatest]| Bounds::new(least, greatest)),
         sabotage: group.sabotage.map(|sabotage| match sabotage {
             AuvSabotage::HalvedClock => Sabotage::HalvedClock,
