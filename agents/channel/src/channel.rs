@@ -235,7 +235,7 @@ impl Channel {
         leaving.sort_by_key(|&(at, auv, _)| (at, auv));
         let start = self.now;
         self.places_m.clear();
-        self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.at(start).position_m));
+        self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(start)));
         self.grid.sort(&self.places_m, self.medium.farthest_m());
         for (at, from, planned) in leaving {
             self.emit_one(at, from, planned);
@@ -354,7 +354,7 @@ impl Channel {
     fn watch_separation(&mut self, to: SimTime) {
         for at in Flock::samples(self.now, to) {
             let positions_m: Vec<Vec3> =
-                self.vehicles.iter().map(|vehicle| vehicle.body.at(at).position_m).collect();
+                self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect();
             let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
             self.flock.sample(&positions_m, &length_m);
         }

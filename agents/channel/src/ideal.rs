@@ -48,7 +48,7 @@ impl Ideal {
             if receiver.born.auv == wavefront.from {
                 continue;
             }
-            let distance_m = (receiver.body.at(wavefront.emitted).position_m - wavefront.origin_m).norm();
+            let distance_m = (receiver.body.position_at(wavefront.emitted) - wavefront.origin_m).norm();
             let speed_m_s = receiver.ground_speed_m_s;
             let flight = wavefront.towards(receiver.born.auv, distance_m, speed_m_s, sound_speed_m_s);
             within += u32::from(flight.is_some());
