@@ -112,11 +112,12 @@ pub const BUBBLE_LOSS_CEILING_DB: f64 = 15.0;
 /// Loss in dB of *all* the sound that leaves a windy surface forward, mirrored or scattered: what bubbles swallow. 10 to
 /// 100 kHz, fitted to measurements between 20 and 40 kHz within 3 dB.
 ///
-/// Waves alone take nothing: from a Rayleigh parameter of about one on, as good as always at a modem's frequency, they spread the
-/// sound over angles and some milliseconds, and its coherent part falls as exp(-2 k² s² sin² g) to nothing, but its energy still
-/// arrives. Bubbles do swallow. APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook, technical report 9407
-/// (1994), section II, equations 28; also the surface of the ray models of arlpy and UnderwaterAcoustics.jl, made for links of
-/// modems in shallow water.
+/// Waves alone take nothing. Where their Rayleigh parameter k s sin g exceeds one (wave number, rms height, grazing angle) they
+/// scatter: the mirrored pressure falls as exp(-2 k² s² sin² g), but the energy still arrives, spread over angles and delays.
+/// A receiver that needs the mirrored part hears less than this says.
+///
+/// APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook, technical report 9407 (1994), section II, equations
+/// 28; also the surface of UnderwaterAcoustics.jl, which models links of modems in shallow water.
 pub fn bubble_loss_db(wind_m_s: f64, frequency_khz: f64, grazing_rad: f64) -> f64 {
     /// Slower wind breaks no waves: the loss fades out.
     const BREAKING_M_S: f64 = 6.0;

@@ -79,6 +79,34 @@ fn latitude_matters_little() {
     }
 }
 
+/// Del Grosso's own coefficients of 1974, for temperatures of IPTS-68.
+fn del_grosso_1974(t: f64, s: f64, p: f64) -> f64 {
+    1402.392
+        + t * (5.01109398873 + t * (-5.50946843172e-2 + t * 2.21535969240e-4))
+        + s * (1.32952290781 + s * 1.28955756844e-4)
+        + p * (1.56059257041e-1 + p * (2.44998688441e-5 - p * 8.83392332513e-9))
+        + s * t * (-1.27562783426e-2 + t * 9.68403156410e-5 + p * (s * 4.85639620015e-6 - 3.40597039004e-4))
+        + t * p * (6.35191613389e-3 - p * 1.59349479045e-6 + p * p * 5.22116437235e-10)
+        + t * t * p * (p * 2.65484716608e-8 - t * 4.38031096213e-7)
+        - s * s * p * p * 1.61674495909e-9
+}
+
+/// Two sets of coefficients for one function: what the table's few rows do not reach (deep, hot, salt), the other set does.
+#[test]
+fn both_temperature_scales_mean_the_same_sound() {
+    let (mut grosso, mut millero) = (0.0_f64, 0.0_f64);
+    for t in (0..=30).map(f64::from) {
+        for s in (30..=40).map(f64::from) {
+            for p in (0..=10).map(|i| f64::from(i) * 100.0) {
+                let t68 = 1.00024 * t;
+                grosso = grosso.max((del_grosso(t, s, p) - del_grosso_1974(t68, s, p)).abs());
+                millero = millero.max((chen_millero(t, s, p) - chen_millero_ipts68(t68, s, p)).abs());
+            }
+        }
+    }
+    assert!(grosso < 0.001 && millero < 0.006, "{grosso} {millero}");
+}
+
 proptest! {
     #[test]
     fn all_formulas_agree_where_all_are_valid(t in 2.0..30.0, s in 33.0..37.0, d in 0.0..1000.0) {
