@@ -14,7 +14,7 @@ use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::{Scenario, WaterSabotage};
 use thiserror::Error;
 
-use crate::birth::{self, Water};
+use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::check::{self, Check};
 use crate::digest::Digest;
@@ -22,6 +22,7 @@ use crate::flock::Flock;
 use crate::sound::{Flight, Wavefront, reach_m};
 use crate::tally::Tally;
 use crate::vehicle::Vehicle;
+use crate::water::Water;
 
 /// Why a run cannot go on.
 #[derive(Debug, Error)]
@@ -84,7 +85,7 @@ impl Channel {
             for index in 0..group.count {
                 let auv = AuvId(vehicles.len() as u32);
                 let newborn = birth::newborn(scenario, &water, auv, group_index as u16, index);
-                let speed_m_s = Body::ground_speed_bound_m_s(&group.kind, &water.current_m_s);
+                let speed_m_s = Body::ground_speed_bound_m_s(&group.kind, &water.current);
                 let (length_m, error_s) = (group.kind.length_m, group.modem.timestamp_error_s);
                 vehicles.push(Vehicle::new(newborn, speed_m_s, length_m, error_s));
             }
