@@ -18,6 +18,9 @@
 //! | `sensors.rs` | measurements inside stated bounds |
 //! | `sound.rs` | wavefronts and arrivals |
 //! | `check.rs` | enclosures against the truth |
+//! | `grid.rs` | who is near |
+//! | `ideal.rs` | sound as a sphere with a sharp edge |
+//! | `medium.rs` | either level behind one face |
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
@@ -33,6 +36,9 @@ pub mod current;
 pub mod digest;
 pub mod draw;
 pub mod flock;
+pub mod grid;
+mod ideal;
+mod medium;
 pub mod sensors;
 pub mod sound;
 mod tally;
