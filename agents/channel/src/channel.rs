@@ -23,12 +23,8 @@ use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
 use crate::tally::Tally;
-<<<<<<< HEAD
-use crate::vehicle::Vehicle;
-use crate::water::Water;
-=======
 use crate::vehicle::{Planned, Vehicle};
->>>>>>> main
+use crate::water::Water;
 
 /// Why a run cannot go on.
 #[derive(Debug, Error)]
