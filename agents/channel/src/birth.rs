@@ -1,5 +1,6 @@
 //! From a scenario to the AUVs of a run: where each really is, and what it is told.
 
+mod access;
 mod bounds;
 
 use nalgebra::Vector3;
@@ -42,7 +43,7 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
     let birth = clock.read(SimTime::ZERO);
     let mut within = |period_ns: i64| 1 + (phase.unit() * (period_ns - 1) as f64) as i64;
     let first_tick = birth + within(group.control_period_ns);
-    let first_ping_ns = birth_phase_ns(&group.modem.access).map(&mut within);
+    let first_ping_ns = access::drawn_within_ns(&group.modem.access).map(&mut within);
     let first_fix = birth + group.sensors.gnss.as_ref().map_or(0, |gnss| within(gnss.period_ns));
 
     let (position_m, attitude) = placed(group, index, &mut start);
@@ -55,7 +56,8 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         attitude,
         (seed, auv, noise),
     );
-    let access = access(&group.modem.access, birth + first_ping_ns.unwrap_or(0), &mut phase);
+    let first_ping = birth + first_ping_ns.unwrap_or(0);
+    let access = access::orders(scenario, group, water, auv, first_ping, &mut phase);
     let offset_s = group.clock.offset_bound_s + 4.0 * STAMP_NS as f64 * 1e-9;
     let born = Born {
         auv,
@@ -70,7 +72,7 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         birth,
         prior_position_m,
         body: bounds::body(scenario, group),
-        modem: bounds::modem(scenario, group),
+        modem: bounds::modem(scenario, group, water),
         orders: orders(scenario, group, index, access),
     };
     Newborn {
@@ -79,27 +81,6 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         sensors: Sensors::new(&group.sensors, scenario.bottom_depth_m(), (seed, auv, noise), first_fix),
         arrivals: Draws::new(seed, Purpose::Arrival, auv, noise),
         born,
-    }
-}
-
-/// The period within which the first ping is drawn.
-fn birth_phase_ns(access: &model::MediumAccess) -> Option<i64> {
-    match *access {
-        model::MediumAccess::Silent | model::MediumAccess::Slotted { .. } => None,
-        model::MediumAccess::Periodic { period_ns, .. } | model::MediumAccess::Csma { period_ns, .. } => {
-            Some(period_ns)
-        }
-        model::MediumAccess::Aloha { mean_period_ns } => Some(mean_period_ns),
-    }
-}
-
-/// When an AUV pings, as it is told; `drawn` is the first ping where none is stated.
-fn access(of: &model::MediumAccess, drawn: LocalTime, _draws: &mut Draws) -> MediumAccess {
-    match *of {
-        model::MediumAccess::Periodic { period_ns, phase_ns } => {
-            MediumAccess::Periodic { first: phase_ns.map_or(drawn, LocalTime::from_ns), period_ns }
-        }
-        _ => MediumAccess::Silent,
     }
 }
 

@@ -14,6 +14,7 @@ use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::{Scenario, WaterSabotage};
 use thiserror::Error;
 
+use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::check::{self, Check};
@@ -37,6 +38,9 @@ pub enum ChannelError {
         /// What the fastest AUV allows.
         lookahead_ns: i64,
     },
+    /// The scenario's speed of sound over depth is none.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// A message could not be hashed.
     #[error(transparent)]
     Codec(#[from] CodecError),
@@ -54,7 +58,7 @@ pub enum ChannelError {
 /// use shoal_channel::channel::Channel;
 ///
 /// let (source_name, text) = shoal_scenario::load("two-circles")?;
-/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?);
+/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?)?;
 /// let sensed = channel.advance(SimTime::from_ns(9_000_000))?;
 /// // Both AUVs woke a thousand times a second of their own clocks.
 /// assert_eq!(sensed.len(), 2);
@@ -83,8 +87,11 @@ pub struct Channel {
 
 impl Channel {
     /// The water of `scenario` at true time zero.
-    pub fn new(scenario: &Scenario) -> Self {
-        let water = Water::new(scenario);
+    ///
+    /// # Errors
+    /// [`ChannelError::Profile`] for a scenario that no file can say.
+    pub fn new(scenario: &Scenario) -> Result<Self, ChannelError> {
+        let water = Water::new(scenario)?;
         let mut vehicles = Vec::with_capacity(scenario.auv_count() as usize);
         for (group_index, group) in scenario.groups.iter().enumerate() {
             for index in 0..group.count {
@@ -100,7 +107,7 @@ impl Channel {
         {
             vehicle.body.shift_truth(SimTime::from_ns(at_ns));
         }
-        Self {
+        Ok(Self {
             scenario: scenario.clone(),
             tally: Tally::new(vehicles.len()),
             medium: Medium::new(scenario, &water, &vehicles),
@@ -115,7 +122,7 @@ impl Channel {
             chronicled: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
-        }
+        })
     }
 
     /// What each AUV is told at birth, sorted by AUV.

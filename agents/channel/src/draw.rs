@@ -26,8 +26,10 @@ pub enum Purpose {
     Arrival = 8,
     /// What the scenario knows only within bounds, such as speed of sound and current.
     Water = 9,
+    /// Fading, and whether a packet is decoded.
+    Reception = 10,
     /// Velocity over ground.
-    Dvl = 10,
+    Dvl = 11,
 }
 
 /// One stream of draws.

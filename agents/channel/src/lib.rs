@@ -17,6 +17,7 @@
 //! | `clock.rs` | true clocks |
 //! | `sensors.rs` | measurements inside stated bounds |
 //! | `sound.rs` | wavefronts and arrivals |
+//! | `reception.rs` | which packets a modem decodes |
 //! | `check.rs` | enclosures against the truth |
 //! | `grid.rs` | who is near |
 //! | `ideal.rs` | sound as a sphere with a sharp edge |
@@ -39,6 +40,7 @@ pub mod flock;
 pub mod grid;
 mod ideal;
 mod medium;
+pub mod reception;
 pub mod sensors;
 pub mod sound;
 mod tally;

@@ -42,60 +42,10 @@ mod tests;
 use self::arc::Arc;
 use self::route::{Route, Stretch, Turn};
 use super::profile::{Level, Profile};
+pub use shoal_bus::traffic::{Boundary, SoundPath};
 
 /// Ranges and depths beyond this, in metres, are no place in a sea: no ray goes there.
 const FARTHEST_M: f64 = 1e8;
-
-/// What sound bounces off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Boundary {
-    /// The sea surface, depth 0.
-    Surface,
-    /// The sea bottom.
-    Bottom,
-}
-
-impl Boundary {
-    /// The other one.
-    pub fn opposite(self) -> Self {
-        match self {
-            Self::Surface => Self::Bottom,
-            Self::Bottom => Self::Surface,
-        }
-    }
-}
-
-/// How sound gets from emitter to receiver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum SoundPath {
-    /// Through the water alone.
-    Direct,
-    /// Off surface and bottom in turn.
-    Bounced {
-        /// The boundary that is met first.
-        first: Boundary,
-        /// How many bounces in all.
-        bounces: u8,
-    },
-}
-
-impl SoundPath {
-    /// How often the path meets a boundary.
-    ///
-    /// ```
-    /// use shoal_channel::acoustics::ray::{Boundary, SoundPath};
-    ///
-    /// let path = SoundPath::Bounced { first: Boundary::Bottom, bounces: 3 };
-    /// assert_eq!((path.bounces_off(Boundary::Bottom), path.bounces_off(Boundary::Surface)), (2, 1));
-    /// ```
-    pub fn bounces_off(self, boundary: Boundary) -> u8 {
-        match self {
-            Self::Direct => 0,
-            Self::Bounced { first, bounces } if first == boundary => bounces.div_ceil(2),
-            Self::Bounced { bounces, .. } => bounces / 2,
-        }
-    }
-}
 
 /// The direction of a ray at a point: the direction in which sound travels, seen from the side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -242,7 +192,7 @@ impl WaterColumn {
         if bounces == 0 || pair.upper.depth_m < 0.0 || pair.lower.depth_m > self.bottom_depth_m {
             return None;
         }
-        let last = if bounces % 2 == 1 { first } else { first.opposite() };
+        let last = if bounces % 2 == 1 { first } else { first.other() };
         let crossings = f64::from(bounces - 1);
         let (upper_towards, lower_towards) = if pair.goes_down { (first, last) } else { (last, first) };
         // The leg of the upper point crosses what is above it or all below it, that of the lower one likewise.

@@ -1,12 +1,13 @@
 //! What is certain about body and modem, as an AUV is told.
 
 use shoal_bus::message::{BodyBounds, Bounds, BoundsBox, ModemBounds};
-use shoal_scenario::model::{Environment, Group, Scenario};
+use shoal_scenario::model::{Environment, Group, Level, Scenario};
 
 use crate::body::{Body, Vec3};
 use crate::current::{field_change, field_hull_m_s};
 use crate::sensors::rounding;
 use crate::sound::ARRIVAL_TOLERANCE_S;
+use crate::water::Water;
 
 /// Bounds of the body's motion in this water.
 pub fn body(scenario: &Scenario, group: &Group) -> BodyBounds {
@@ -58,18 +59,20 @@ fn fastest_m_s(one: &Bounds, other: &Bounds) -> f64 {
 }
 
 /// Bounds of the modem and of sound in this water.
-pub fn modem(scenario: &Scenario, group: &Group) -> ModemBounds {
-    let environment = &scenario.environment;
-    let error_m_s = environment.sound_speed_error_m_s + rounding(environment.sound_speed_m_s);
-    let farthest_m =
-        scenario.groups.iter().fold(0.0_f64, |farthest, group| farthest.max(group.modem.range_m));
+pub fn modem(scenario: &Scenario, group: &Group, water: &Water) -> ModemBounds {
+    let hearing_range_m = match scenario.environment.level {
+        Level::Ideal => {
+            let farthest_m =
+                scenario.groups.iter().fold(0.0_f64, |farthest, group| farthest.max(group.modem.range_m));
+            farthest_m + rounding(farthest_m)
+        }
+        // A lucky packet comes from far away.
+        Level::Sea(_) => f64::INFINITY,
+    };
     ModemBounds {
         range_m: group.modem.range_m,
-        hearing_range_m: farthest_m + rounding(farthest_m),
-        sound_speed_m_s: Bounds::new(
-            environment.sound_speed_m_s - error_m_s,
-            environment.sound_speed_m_s + error_m_s,
-        ),
+        hearing_range_m,
+        sound_speed_m_s: water.told_sound_speed_m_s,
         timestamp_s: group.modem.timestamp_error_s + ARRIVAL_TOLERANCE_S,
         frame_bytes: group.modem.frame_bytes,
     }

@@ -5,7 +5,6 @@ use shoal_scenario::model::{CurrentField, Noise};
 use super::*;
 use crate::birth;
 use crate::draw::{Draws, Purpose};
-use crate::water::Water;
 
 const DURATION_MS: i64 = 4_000;
 
@@ -42,7 +41,7 @@ fn fields() -> [CurrentField; 3] {
 
 /// The current met, millisecond by millisecond, by a body that is steered at random.
 fn met(scenario: &Scenario) -> Vec<Vec3> {
-    let mut body = birth::newborn(scenario, &Water::new(scenario), AuvId(0), 0, 0).body;
+    let mut body = birth::newborn(scenario, &Water::new(scenario).unwrap(), AuvId(0), 0, 0).body;
     let mut draws = Draws::new(scenario.seed, Purpose::Phase, AuvId(99), Noise::Uniform);
     let mut at_ms = 5;
     while at_ms < DURATION_MS {
