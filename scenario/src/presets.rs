@@ -1,4 +1,13 @@
-//! Bodies and clocks by name. What a scenario file calls `kind = "lauv"` or `clock = "tcxo"` is here and nowhere else.
+//! Bodies, clocks and modems by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or `modem = "popoto"` is
+//! here and nowhere else.
+
+mod budget;
+mod modem;
+
+pub use budget::{BUDGET_SHIPPING, BUDGET_WIND_M_S, BUDGETS, Budget};
+pub use modem::{
+    EVOLOGICS_18_34, IDEAL, MICROMODEM_FSK, MICROMODEM_PSK, MODEM_DEFAULT, MODEMS, POPOTO, SEATRAC,
+};
 
 use crate::model::{Clock, Kind};
 
