@@ -7,7 +7,7 @@ use crate::body::Catalogue;
 use crate::current::fastest_current_m_s;
 use crate::diagnostics::{Findings, ScenarioErrors};
 use crate::environment::{environment, norm};
-use crate::group::{GroupRead, group, group_names, name_is_good};
+use crate::group::{GroupRead, auvs_written, group, group_names, name_is_good};
 use crate::model::{Environment, Level, Noise, OnCrash, Scenario, SoundSpeed, WaterSabotage};
 use crate::reader::Table;
 use crate::sound_speed::slowest_m_s;
@@ -148,7 +148,8 @@ fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupR
         }
     }
     let names = group_names(&tables);
-    tables.into_iter().map(|table| group(table, &kinds, &clocks, environment, &names)).collect()
+    let auvs = auvs_written(&tables);
+    tables.into_iter().map(|table| group(table, &kinds, &clocks, environment, &names, auvs)).collect()
 }
 
 /// The number of AUVs, when all groups have one and the sum is not too large.

@@ -142,9 +142,12 @@ mod environment;
 mod examples;
 mod group;
 mod library;
+mod medium_access;
 pub mod model;
+mod modem;
 mod number;
 mod overrides;
+mod packet;
 pub mod presets;
 mod reader;
 mod sea;
@@ -159,6 +162,7 @@ pub use document::parse;
 pub use library::{LibraryEntry, LoadError, library, load};
 pub use model::*;
 pub use overrides::{OverrideError, Overrides};
+pub use packet::{FRAME_BYTES_MAX, PING_BYTES};
 
 /// Most AUVs that a run can have.
 pub const AUVS_MAX: u32 = 65_536;

@@ -1,4 +1,13 @@
-//! Bodies, clocks, sea floors by name. What a scenario file calls `kind = "lauv"` or `clock = "tcxo"` is here and nowhere else.
+//! Bodies, clocks, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or `modem = "popoto"` is
+//! here and nowhere else.
+
+mod budget;
+mod modem;
+
+pub use budget::{BUDGET_SHIPPING, BUDGET_WIND_M_S, BUDGETS, Budget};
+pub use modem::{
+    EVOLOGICS_18_34, IDEAL, MICROMODEM_FSK, MICROMODEM_PSK, MODEM_DEFAULT, MODEMS, POPOTO, SEATRAC,
+};
 
 use crate::model::{Bottom, Clock, Kind};
 

@@ -11,6 +11,8 @@
 //! | `channel.rs` | windows, wakes, answers |
 //! | `birth.rs` | from scenario to newborn AUVs |
 //! | `vehicle.rs` | one AUV as the water knows it |
+//! | `water.rs` | what the water really is |
+//! | `current.rs` | the true current |
 //! | `body.rs` | true motion |
 //! | `clock.rs` | true clocks |
 //! | `sensors.rs` | measurements inside stated bounds |
@@ -34,6 +36,7 @@ pub mod budget;
 pub mod channel;
 pub mod check;
 pub mod clock;
+pub mod current;
 pub mod digest;
 pub mod draw;
 pub mod flock;
@@ -46,3 +49,4 @@ pub mod sensors;
 pub mod sound;
 mod tally;
 pub mod vehicle;
+pub mod water;
