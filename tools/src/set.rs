@@ -30,9 +30,7 @@ impl Setting {
         let path = path(key)?;
         pieces(values)
             .into_iter()
-            .map(|value| {
-                Ok(Self { key: key.to_owned(), path: path.clone(), value: parse_value(value)? })
-            })
+            .map(|value| Ok(Self { key: key.to_owned(), path: path.clone(), value: parse_value(value)? }))
             .collect()
     }
 
@@ -94,7 +92,9 @@ fn parse_value(text: &str) -> Result<Value, String> {
         }
         Err(_) if text.is_empty() => Err("a value is missing: write KEY=VALUE".to_owned()),
         Err(_) if is_word(text) => Ok(Value::from(text)),
-        Err(_) => Err(format!("`{text}` is no TOML value: write a number, a word, a \"text\", `[1, 2]` or `{{ a = 1 }}`")),
+        Err(_) => Err(format!(
+            "`{text}` is no TOML value: write a number, a word, a \"text\", `[1, 2]` or `{{ a = 1 }}`"
+        )),
     }
 }
 
@@ -136,7 +136,7 @@ fn set_in_item(item: &mut Item, path: &[String], value: &Value) -> Result<(), St
         Item::Table(table) => set_in_item(table.entry(part).or_insert(Item::None), rest, value),
         Item::ArrayOfTables(tables) => {
             let count = tables.len();
-            let mut set = |table: &mut Table, path: &[String]| match path.split_first() {
+            let set = |table: &mut Table, path: &[String]| match path.split_first() {
                 Some((part, rest)) => set_in_item(table.entry(part).or_insert(Item::None), rest, value),
                 None => Err(format!("`{part}` is a table; name one of its keys")),
             };
@@ -157,7 +157,8 @@ fn set_in_value(at: &mut Value, path: &[String], value: &Value) -> Result<(), St
     match at {
         Value::InlineTable(table) => {
             if !table.contains_key(part) {
-                let new = if rest.is_empty() { value.clone() } else { Value::InlineTable(Default::default()) };
+                let new =
+                    if rest.is_empty() { value.clone() } else { Value::InlineTable(Default::default()) };
                 table.insert(part, new);
             }
             table.get_mut(part).map_or(Ok(()), |inside| set_in_value(inside, rest, value))
@@ -171,11 +172,13 @@ fn set_in_value(at: &mut Value, path: &[String], value: &Value) -> Result<(), St
                 Err(_) => array.iter_mut().try_for_each(|element| set_in_value(element, path, value)),
             }
         }
-        other => Err(format!(
-            "there is `{}` where `{part}` should be looked up: it is {}, not a table",
-            other.to_string().trim(),
-            other.type_name()
-        )),
+        other => {
+            other.decor_mut().clear();
+            Err(format!(
+                "`{part}` cannot be looked up in `{other}`, which is of type {} and no table",
+                other.type_name()
+            ))
+        }
     }
 }
 
@@ -209,16 +212,13 @@ mod tests {
         assert_eq!(set(&["area_m.1.0=-5"]).unwrap(), TEXT.replace("[0, 2]", "[-5, 2]"));
         assert_eq!(set(&["group.0.name=hold-it"]).unwrap(), TEXT.replace("\"a\"", "\"hold-it\""));
         assert_eq!(set(&["group.0.modem.range_m=[1, 2]"]).unwrap(), TEXT.replace("100", "[1, 2]"));
-        assert_eq!(
-            set(&["group.0.controller.name=circle"]).unwrap(),
-            TEXT.replace("\"hold\"", "\"circle\"")
-        );
+        assert_eq!(set(&["group.0.controller.name=circle"]).unwrap(), TEXT.replace("\"hold\"", "\"circle\""));
     }
 
     #[test]
     fn a_name_behind_an_array_means_all_and_missing_tables_are_made() {
         let text = set(&["group.modem.access=slotted", "environment.sea.wind_m_s=4"]).unwrap();
-        let table: toml_edit::ImDocument<String> = text.parse().unwrap();
+        let table: toml_edit::Document<String> = text.parse().unwrap();
         for group in 0..2 {
             assert_eq!(table["group"][group]["modem"]["access"].as_str(), Some("slotted"), "{text}");
         }
@@ -243,7 +243,7 @@ mod tests {
             ("seed=", "a value is missing"),
             ("seed=[1", "`[1` is no TOML value"),
             ("a b=1", "`a b` is no key"),
-            ("seed.x=1", "there is `1` where `x` should be looked up: it is integer, not a table"),
+            ("seed.x=1", "`x` cannot be looked up in `1`, which is of type integer and no table"),
             ("group.2.name=c", "there is no element 2: there are 2, counted from 0"),
             ("group.0=c", "name one of its keys"),
         ];

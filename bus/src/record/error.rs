@@ -78,7 +78,10 @@ pub enum RecordReadError {
     #[error("this MCAP file is not the record of a run: it has no metadata record `{}`", super::METADATA_RUN)]
     NotARecord,
     /// A record of another version.
-    #[error("this record has format {found}, and this version of shoal reads format {}", super::RECORD_FORMAT)]
+    #[error(
+        "this record has format {found}, and this version of shoal reads format {}",
+        super::RECORD_FORMAT
+    )]
     UnknownFormat {
         /// Version of its layout.
         found: u32,

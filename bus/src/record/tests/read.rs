@@ -40,7 +40,10 @@ fn rows_are_those_that_were_written() {
     assert!(pings.into_iter().eq(crossed));
     let (reports, _) = read(&file, &[Topic::Reports]).unwrap();
     assert!(reports[1..].iter().all(|row| matches!(row, Row::Report(_))));
-    assert_eq!(reports.len() - 1, entries.iter().filter(|entry| matches!(entry.what, What::Acted(_))).count());
+    assert_eq!(
+        reports.len() - 1,
+        entries.iter().filter(|entry| matches!(entry.what, What::Acted(_))).count()
+    );
 }
 
 #[test]
