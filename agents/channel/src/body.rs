@@ -209,6 +209,18 @@ impl Body {
         pose_at(self.segment_at(t), t)
     }
 
+    /// The position in metres at `t`, as in [`at`](Self::at), for less.
+    pub fn position_at(&self, t: SimTime) -> Vec3 {
+        let segment = self.segment_at(t);
+        segment.position_after(segment.elapsed_s(t))
+    }
+
+    /// The velocity over ground in m/s at `t`, as in [`at`](Self::at), for less.
+    pub fn ground_velocity_at(&self, t: SimTime) -> Vec3 {
+        let segment = self.segment_at(t);
+        segment.ground_velocity_m_s + segment.acceleration_m_s2 * segment.elapsed_s(t)
+    }
+
     /// The stretches that are remembered, in order.
     pub fn segments(&self) -> impl Iterator<Item = &Segment> {
         self.segments.iter()

@@ -26,6 +26,8 @@ pub enum Purpose {
     Arrival = 8,
     /// What the scenario knows only within bounds, such as speed of sound and current.
     Water = 9,
+    /// Fading, and whether a packet is decoded.
+    Reception = 10,
 }
 
 /// One stream of draws.

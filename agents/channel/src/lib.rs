@@ -15,7 +15,11 @@
 //! | `clock.rs` | true clocks |
 //! | `sensors.rs` | measurements inside stated bounds |
 //! | `sound.rs` | wavefronts and arrivals |
+//! | `reception.rs` | which packets a modem decodes |
 //! | `check.rs` | enclosures against the truth |
+//! | `grid.rs` | who is near |
+//! | `ideal.rs` | sound as a sphere with a sharp edge |
+//! | `medium.rs` | either level behind one face |
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
@@ -30,6 +34,10 @@ pub mod clock;
 pub mod digest;
 pub mod draw;
 pub mod flock;
+pub mod grid;
+mod ideal;
+mod medium;
+pub mod reception;
 pub mod sensors;
 pub mod sound;
 mod tally;
