@@ -2,16 +2,15 @@
 
 use crate::AUVS_MAX;
 use crate::environment::norm;
-use crate::model::{Environment, Level, MediumAccess, PhysicalLayer, SoundSpeed};
+use crate::model::{Environment, Level, MediumAccess, PhysicalLayer};
 use crate::modem::{Surroundings, in_seconds, packet_arithmetic, packet_ns, rounded_up};
 use crate::number::Rule;
 use crate::packet::PING_BYTES;
 use crate::reader::Table;
 use crate::sensing::PERIOD_MIN_NS;
+use crate::sound_speed::slowest_m_s;
 
 const NAMES: [&str; 4] = ["periodic", "aloha", "slotted", "csma"];
-/// No sea is slower: fresh water at 0 degrees C has 1402 m/s.
-const SLOWEST_SEA_M_S: f64 = 1400.0;
 
 /// `packet` is the physical layer where packets take time.
 pub(crate) fn medium_access(
@@ -197,15 +196,10 @@ fn holds_a_packet(
 
 /// No sound in this water is slower, in m/s.
 fn slowest_sound_m_s(environment: &Environment) -> f64 {
+    let uniform_m_s = environment.sound_speed_m_s;
     let stated_m_s = match &environment.level {
-        Level::Ideal => environment.sound_speed_m_s,
-        Level::Sea(sea) => match &sea.sound_speed {
-            SoundSpeed::Uniform => environment.sound_speed_m_s,
-            SoundSpeed::Speeds { speeds_m_s, .. } => {
-                speeds_m_s.iter().copied().fold(environment.sound_speed_m_s, f64::min)
-            }
-            SoundSpeed::Named(_) | SoundSpeed::Water { .. } => SLOWEST_SEA_M_S,
-        },
+        Level::Ideal => uniform_m_s,
+        Level::Sea(sea) => slowest_m_s(&sea.sound_speed, uniform_m_s),
     };
     stated_m_s - environment.sound_speed_error_m_s
 }
