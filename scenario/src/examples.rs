@@ -9,6 +9,9 @@ pub(crate) fn example_in(table: &str, key: &str) -> String {
         ("[environment.current_field]", "speed_m_s") => "0.3",
         ("[environment.sea.bottom]", "sound_speed_m_s") => "1650",
         ("[environment.sea.fading]", "kind") => "\"rician\"",
+        ("[group.modem]", "like") => "\"micromodem-psk\"",
+        ("[group.modem.access]", "name") => "\"aloha\"",
+        ("[group.modem.duty_cycle]", "period_s") => "10",
         _ => return example(key),
     };
     format!("{key} = {value}")
@@ -102,7 +105,7 @@ fn example(key: &str) -> String {
         "detection_threshold_db" => "0",
         "capture_db" => "6",
         "duty_cycle" => "{ period_s = 10, awake_s = 6 }",
-        "awake_s" => "0.5",
+        "awake_s" => "6",
         "access" => "{ name = \"slotted\", slot_s = 5 }",
         "slot_s" | "backoff_s" => "5",
         "slots" => "10",

@@ -1,5 +1,5 @@
-//! Bodies, clocks, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or `modem = "popoto"` is
-//! here and nowhere else.
+//! Bodies, clocks, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or
+//! `modem = "popoto"` is here and nowhere else.
 
 mod budget;
 mod modem;
