@@ -28,7 +28,7 @@ pub(crate) struct Catalogue<T> {
 }
 
 impl<T: Named> Catalogue<T> {
-    /// The presets and what the document defines in `[kind.NAME]` or `[clock.NAME]`.
+    /// The presets and what the document defines in `[kind.NAME]`, `[clock.NAME]` or `[sensors.NAME]`.
     pub(crate) fn read(document: &Table<'_>) -> Self {
         let presets = T::PRESETS.iter().map(|(name, preset)| (name.to_string(), Some(preset.clone())));
         let mut catalogue = Self { by_name: presets.collect() };

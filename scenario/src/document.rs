@@ -104,6 +104,7 @@ fn read(table: Table<'_>) -> Option<Scenario> {
 fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupRead> {
     let kinds = Catalogue::read(document);
     let clocks = Catalogue::read(document);
+    let suites = Catalogue::read(document);
     let listed: Option<&DeArray<'_>> = match document.get("group").map(Spanned::get_ref) {
         Some(DeValue::Array(listed)) if listed.len() > TABLES_MAX => {
             document.refuse(
@@ -148,7 +149,7 @@ fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupR
         }
     }
     let names = group_names(&tables);
-    tables.into_iter().map(|table| group(table, &kinds, &clocks, environment, &names)).collect()
+    tables.into_iter().map(|table| group(table, &kinds, &clocks, &suites, environment, &names)).collect()
 }
 
 /// The number of AUVs, when all groups have one and the sum is not too large.

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::body::Catalogue;
 use crate::environment::norm;
-use crate::model::{AuvSabotage, Clock, Environment, Group, Kind};
+use crate::model::{AuvSabotage, Clock, Environment, Group, Kind, Sensors};
 use crate::reader::Table;
-use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS, modem, sensors};
+use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS, modem};
 use crate::start::start;
 use crate::steering::{Surroundings, controller, estimator};
 use crate::{AUVS_MAX, window_limit_ns};
@@ -34,6 +34,7 @@ pub(crate) fn group(
     table: Table<'_>,
     kinds: &Catalogue<Kind>,
     clocks: &Catalogue<Clock>,
+    suites: &Catalogue<Sensors>,
     environment: Option<&Environment>,
     group_names: &[&str],
 ) -> GroupRead {
@@ -44,7 +45,7 @@ pub(crate) fn group(
     let clock = clocks.of_group(&table);
     let control_period_ns = control_period(&table);
     let reaction_ns = table.time_ns("reaction_s", Some(TENTH_NS), PERIOD_MIN_NS);
-    let sensors = sensors(&table);
+    let sensors = suites.of_group(&table);
     let modem = modem(&table);
     let estimator = estimator(&table);
     let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });
