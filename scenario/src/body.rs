@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::de::DeValue;
 
 use crate::TABLES_MAX;
-use crate::model::{Clock, Kind};
+use crate::model::{Clock, Kind, Sensors};
 use crate::number::Rule;
 use crate::presets::{CLOCK_DEFAULT, CLOCKS, KIND_DEFAULT, KINDS};
 use crate::reader::{Table, Value};
@@ -25,6 +25,23 @@ pub(crate) trait Named: Clone + 'static {
 /// Presets and the user's own, by name; `None` for those that have errors of their own.
 pub(crate) struct Catalogue<T> {
     by_name: BTreeMap<String, Option<T>>,
+}
+
+/// All that a group may name.
+pub(crate) struct Catalogues {
+    pub(crate) kinds: Catalogue<Kind>,
+    pub(crate) clocks: Catalogue<Clock>,
+    pub(crate) sensors: Catalogue<Sensors>,
+}
+
+impl Catalogues {
+    pub(crate) fn read(document: &Table<'_>) -> Self {
+        Self {
+            kinds: Catalogue::read(document),
+            clocks: Catalogue::read(document),
+            sensors: Catalogue::read(document),
+        }
+    }
 }
 
 impl<T: Named> Catalogue<T> {

@@ -147,14 +147,16 @@ mod environment;
 mod examples;
 mod group;
 mod library;
+mod medium_access;
 pub mod model;
+mod modem;
 mod number;
 mod overrides;
+mod packet;
 pub mod presets;
 mod reader;
 mod sea;
 mod sensing;
-mod sensors;
 mod sound_speed;
 mod start;
 mod steering;
@@ -165,6 +167,7 @@ pub use document::parse;
 pub use library::{LibraryEntry, LoadError, library, load};
 pub use model::*;
 pub use overrides::{OverrideError, Overrides};
+pub use packet::{FRAME_BYTES_MAX, PING_BYTES};
 
 /// Most AUVs that a run can have.
 pub const AUVS_MAX: u32 = 65_536;

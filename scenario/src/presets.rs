@@ -1,8 +1,14 @@
-//! Bodies, clocks, sensors and sea floors by name. What a scenario file calls `kind = "lauv"` or `clock = "tcxo"` is here and
-//! nowhere else.
+//! Bodies, clocks, sensors, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or
+//! `modem = "popoto"` is here and nowhere else.
 
+mod budget;
+mod modem;
 mod sensors;
 
+pub use budget::{BUDGET_SHIPPING, BUDGET_WIND_M_S, BUDGETS, Budget};
+pub use modem::{
+    EVOLOGICS_18_34, IDEAL, MICROMODEM_FSK, MICROMODEM_PSK, MODEM_DEFAULT, MODEMS, POPOTO, SEATRAC,
+};
 pub(crate) use sensors::NOMINAL;
 pub use sensors::{DVLS, GNSS, SENSORS, SENSORS_DEFAULT};
 

@@ -134,6 +134,28 @@ impl<'t> Table<'t> {
         }
     }
 
+    /// What has a name under `key`: the name alone, or a table with a `name` and more, which errors call `title`.
+    pub(crate) fn name_or_table(
+        &self,
+        key: &'static str,
+        title: &str,
+    ) -> Option<(&'t str, Option<Table<'t>>)> {
+        let value = self.get(key)?;
+        match value.get_ref() {
+            DeValue::String(name) => Some((name.as_ref(), None)),
+            DeValue::Table(entries) => {
+                let table = Table::new(entries, value.span(), title, self.findings);
+                let name = table.text("name", None);
+                table.report_missing();
+                Some((name?, Some(table)))
+            }
+            _ => {
+                self.wrong_type(key, value, "a name or a table with a name");
+                None
+            }
+        }
+    }
+
     /// The table under `key`, which errors call `name`, or the text when there is only that.
     pub(crate) fn text_or_table(&self, key: &'static str, name: &str) -> Option<TextOrTable<'t>> {
         let value = self.get(key)?;

@@ -67,6 +67,7 @@ zz = 0
 [[group]]
 name = "hold"
 count = 1
+modem = "micromodem-psk"
 "#;
 
 /// What cannot stand beside other forms of the same table.
@@ -81,6 +82,7 @@ sea.sound_speed = { depths_m = [0, 9], temperatures_c = [9, 9], salinities_psu =
 [[group]]
 name = "hold"
 count = 1
+modem = "micromodem-psk"
 "#;
 
 #[test]
