@@ -1,4 +1,4 @@
-//! The tables `kind` and `clock`: what a body can do and how its clock runs, by name or in full.
+//! What a group may name or spell out: what its body can do, how its clock runs, what it senses.
 
 use std::collections::{BTreeMap, BTreeSet};
 

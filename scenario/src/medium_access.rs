@@ -3,7 +3,7 @@
 use crate::AUVS_MAX;
 use crate::environment::norm;
 use crate::model::{Environment, Level, MediumAccess, PhysicalLayer};
-use crate::modem::{Surroundings, in_seconds, packet_arithmetic, packet_ns, rounded_up};
+use crate::modem::{Surroundings, in_seconds, packet_arithmetic, packet_ns, rounded, rounded_up};
 use crate::number::Rule;
 use crate::packet::PING_BYTES;
 use crate::reader::Table;
@@ -176,21 +176,21 @@ fn holds_a_packet(
     if slot_ns >= (needed_s * 1e9).round() as i64 {
         return;
     }
-    let way = format!("{guard_range_m:.0} m / ({slowest_m_s} m/s)");
+    let way = format!("{} m / ({slowest_m_s} m/s)", rounded(guard_range_m, 2));
     let arithmetic = match packet {
-        Some(layer) => format!("{} s + {way}", rounded_up(layer.packet_s(PING_BYTES))),
+        Some(layer) => format!("{} s + {way}", rounded(layer.packet_s(PING_BYTES), 4)),
         None => way,
     };
     let what = if packet.is_some() { "a packet and its way" } else { "the way of sound" };
-    let needed_s = rounded_up(needed_s);
     table.refuse(
         "slot_s",
         format!(
-            "a slot of {} s is shorter than {what} to the guard range: {arithmetic} = {needed_s} s",
-            in_seconds(slot_ns)
+            "a slot of {} s is shorter than {what} to the guard range: {arithmetic} = {} s",
+            in_seconds(slot_ns),
+            rounded(needed_s, 4)
         ),
         "runs into the next slot",
-        format!("write `slot_s = {needed_s}` or more, or a shorter `guard_range_m`"),
+        format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s)),
     );
 }
 

@@ -66,4 +66,8 @@ broken! {
     profile_too_fresh: "profile-too-fresh",
     profile_one_depth: "profile-one-depth",
     slow_profile: "slow-profile",
+    modem_unfit: "modem-unfit",
+    modem_impossible: "modem-impossible",
+    modem_unknown: "modem-unknown",
+    access_impossible: "access-impossible",
 }
