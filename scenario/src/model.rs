@@ -126,6 +126,7 @@ pub enum CurrentField {
 /// How real sound is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[expect(clippy::large_enum_variant, reason = "a scenario has one")]
 pub enum Level {
     /// Constant speed, sharp range limit, no noise and no packets.
     Ideal,
