@@ -12,6 +12,8 @@ pub(crate) fn example_in(table: &str, key: &str) -> String {
         ("[group.modem]", "like") => "\"micromodem-psk\"",
         ("[group.modem.access]", "name") => "\"aloha\"",
         ("[group.modem.duty_cycle]", "period_s") => "10",
+        (table, "like") if table.contains("clock") => "\"tcxo\"",
+        (table, "like") if table.contains("sensors") => "\"ahrs-dvl\"",
         _ => return example(key),
     };
     format!("{key} = {value}")
@@ -84,6 +86,11 @@ fn example(key: &str) -> String {
         "heading_error_rad" | "pitch_error_rad" => "0.01",
         "speed_error_m_s" => "0.02",
         "depth_error_m" => "0.1",
+        "sensors" => "\"ahrs-dvl\"",
+        "dvl" => "{ altitude_max_m = 75, velocity_error_m_s = 0.02 }",
+        "altitude_max_m" => "75",
+        "velocity_error_m_s" => "0.02",
+        "gnss" => "{ depth_max_m = 1 }",
         "depth_max_m" => "1",
         "period_s" => "1",
         "position_error_m" => "[1, 1, 1]",

@@ -87,17 +87,22 @@
 //! | `count` | | needed | how many; [`AUVS_MAX`] in all |
 //! | `kind` | | `"lauv"` | body: one of [`presets::KINDS`], of one's own, or a table |
 //! | `clock` | | `"tcxo"` | clock: one of [`presets::CLOCKS`], of one's own, or a table |
+//! | `sensors` | | `"nominal"` | what it senses: one of [`presets::SENSORS`], of one's own, or a table |
 //! | `control_period_s` | s | 0.1 | between control ticks, in local time; 0.001 to 1000 |
 //! | `reaction_s` | s | 0.1 | from a tick to when its answer takes effect, in local time |
 //! | `estimator` | | `"tube"` | name, or table with `name` |
 //! | `estimator.horizon_s` | s | 10 | past that the tube keeps, in local time |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
 //! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
-//! | **`[group.sensors]`** | | | |
+//! | **`[sensors.NAME]`, `[group.sensors]`** | | | sensors of one's own |
+//! | `like` | | `"nominal"` | preset or other sensors that fill in what is not said; defaults below are those of `"nominal"` |
 //! | `heading_error_rad`, `pitch_error_rad` | rad | 0.01 | errors of the compass |
-//! | `speed_error_m_s` | m/s | 0.02 | error of the log |
+//! | `speed_error_m_s` | m/s | 0.02 | error of the log: speed through the water |
 //! | `depth_error_m` | m | 0.1 | error of the depth; `false` for none |
-//! | `gnss` | | `false` | a table for a satellite receiver: |
+//! | `dvl` | | `false` | Doppler velocity log: one of [`presets::DVLS`], or a table: |
+//! | `dvl.altitude_max_m` | m | needed | sees the bottom up to this height above it |
+//! | `dvl.velocity_error_m_s` | m/s | needed | error of the velocity over ground, per axis of the body |
+//! | `gnss` | | `false` | satellite receiver: one of [`presets::GNSS`], or a table: |
 //! | `gnss.depth_max_m` | m | 1 | works above this depth |
 //! | `gnss.period_s` | s | 1 | between fixes, in local time |
 //! | `gnss.position_error_m` | m | `[1, 1, 1]` | error per axis |
@@ -189,7 +194,7 @@ pub use warnings::Warning;
 /// Most AUVs that a run can have.
 pub const AUVS_MAX: u32 = 65_536;
 
-/// Most groups, kinds and clocks that one scenario can have, each.
+/// Most groups, kinds, clocks and suites of sensors that one scenario can have, each.
 pub const TABLES_MAX: usize = 1024;
 
 /// Longest lockstep window in nanoseconds of true time: no AUV with this reaction time and clock can act on what happens

@@ -15,6 +15,41 @@ impl Draws {
     }
 }
 
+/// All that a file may say about the water and sensors: the library says little of it.
+const SEA: &str = r#"
+name = "sea"
+duration_s = 10
+[environment]
+area_m = [[0, 1000], [0, 1000], [-100, 0]]
+level = "sea"
+current_field = { name = "shear", surface_m_s = [0.4, 0, 0], deep_m_s = [0, 0, 0], depth_m = 50 }
+[environment.sea]
+bottom_depth_m = 120
+temperature_c = 12
+absorption = "ainslie-mccolm"
+spreading_exponent = 1.5
+shipping = 0.5
+wind_m_s = 5
+surface_loss_db = 1
+bottom = { density_kg_m3 = 1900, sound_speed_m_s = 1650, attenuation_db_wavelength = 0.8 }
+bounces_max = 3
+fading = { kind = "rician", k_db = 6, per = "bit" }
+[environment.sea.sound_speed]
+depths_m = [0, 20, 60]
+temperatures_c = [22, 21, 13]
+salinities_psu = [38, 38, 38.3]
+formula = "mackenzie"
+[sensors.mine]
+like = "ahrs-dvl"
+dvl = { altitude_max_m = 50, velocity_error_m_s = 0.01 }
+gnss = "standalone"
+[[group]]
+name = "a"
+count = 3
+modem = "micromodem-psk"
+sensors = "mine"
+"#;
+
 const PIECES: &[&str] = &[
     "",
     "0",
@@ -31,6 +66,9 @@ const PIECES: &[&str] = &[
     "\"\"",
     "\"circle\"",
     "\"reynolds\"",
+    "\"sea\"",
+    "\"munk\"",
+    "[1, 1]",
     "[]",
     "[[]]",
     "[[1, 2]]",
@@ -135,10 +173,15 @@ fn mutate(text: &str, draws: &mut Draws) -> String {
 }
 
 #[test]
+fn what_is_mutated_is_good() {
+    parse("sea.toml", SEA).unwrap_or_else(|errors| panic!("{errors}"));
+}
+
+#[test]
 fn no_mutation_of_a_scenario_makes_the_parser_panic() {
     let mut draws = Draws(1);
     let (mut good, mut bad) = (0, 0);
-    let originals: Vec<&str> = library().iter().map(|entry| entry.text).chain([MODEMS]).collect();
+    let originals: Vec<&str> = library().iter().map(|entry| entry.text).chain([MODEMS, SEA, SEA]).collect();
     for round in 0..4000 {
         let original = originals[draws.below(originals.len())];
         let text = mutate(original, &mut draws);
