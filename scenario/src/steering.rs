@@ -2,7 +2,8 @@
 
 use toml::de::DeValue;
 
-use crate::environment::{contains, norm};
+use crate::current::fastest_current_m_s;
+use crate::environment::contains;
 use crate::model::{Controller, Environment, Estimator, Kind};
 use crate::number::Rule;
 use crate::reader::Table;
@@ -134,7 +135,7 @@ fn circle_suits(
     rate: f64,
     heave_m: f64,
 ) {
-    let current_m_s = environment.map_or(0.0, |environment| norm(environment.current_m_s));
+    let current_m_s = environment.map_or(0.0, fastest_current_m_s);
     let speed_m_s = (radius_m * radius_m + heave_m * heave_m).sqrt() * rate.abs() + current_m_s;
     if speed_m_s > kind.speed_max_m_s {
         let mut needs = format!("radius {radius_m} m at {} rad/s", rate.abs());

@@ -22,6 +22,8 @@
 //! | `grid.rs` | who is near |
 //! | `ideal.rs` | sound as a sphere with a sharp edge |
 //! | `medium.rs` | either level behind one face |
+//! | `budget.rs` | the sonar equation |
+//! | `sea.rs` | sound as in water |
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
@@ -30,6 +32,7 @@
 pub mod acoustics;
 pub mod birth;
 pub mod body;
+pub mod budget;
 pub mod channel;
 pub mod check;
 pub mod clock;
@@ -41,6 +44,7 @@ pub mod grid;
 mod ideal;
 mod medium;
 pub mod reception;
+mod sea;
 pub mod sensors;
 pub mod sound;
 mod tally;
