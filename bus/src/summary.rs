@@ -113,8 +113,8 @@ pub struct Widths {
     pub end_max: f64,
 }
 
-/// What became of the pings: `emitted * (auvs - 1) = heard + sum of lost + in_flight`, where lost is without `late`, `busy` and what
-/// was never emitted for `half_duplex` (`unsent`).
+/// What became of the pings: `emitted * (auvs - 1) = heard + sum of lost + in_flight`, where lost is without
+/// `late`, `busy` and `unsent`, which never left.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Pings {
     /// Pings that left a modem.
@@ -153,6 +153,9 @@ pub struct Lost {
     /// Held back because the emitter's modem heard others: never left.
     #[serde(default)]
     pub busy: u64,
+    /// Booked while the emitter's modem was still emitting another: never left.
+    #[serde(default)]
+    pub unsent: u64,
     /// Booked for a moment that had passed: never left.
     pub late: u64,
     /// The receiver's process had ended.

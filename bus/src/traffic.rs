@@ -121,6 +121,25 @@ impl Boundary {
     }
 }
 
+impl SoundPath {
+    /// How often the path meets a boundary.
+    ///
+    /// ```
+    /// use shoal_bus::traffic::{Boundary, SoundPath};
+    ///
+    /// let path = SoundPath::Bounced { first: Boundary::Bottom, bounces: 3 };
+    /// assert_eq!((path.bounces_off(Boundary::Bottom), path.bounces_off(Boundary::Surface)), (2, 1));
+    /// assert_eq!(path.to_string(), "bottom-surface-bottom");
+    /// ```
+    pub fn bounces_off(self, boundary: Boundary) -> u8 {
+        match self {
+            Self::Direct => 0,
+            Self::Bounced { first, bounces } if first == boundary => bounces.div_ceil(2),
+            Self::Bounced { bounces, .. } => bounces / 2,
+        }
+    }
+}
+
 impl fmt::Display for SoundPath {
     /// `direct`, `surface`, `bottom-surface` and so on.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

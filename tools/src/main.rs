@@ -18,7 +18,9 @@ mod record_info;
 mod run;
 mod scenario_order;
 mod scenarios;
+mod set;
 mod summary_text;
+mod sweep;
 mod tap;
 mod terminal;
 
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
 fn command(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Run(args) => run::run(args),
+        Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),

@@ -19,6 +19,7 @@ pub struct Tally {
     wakes: u64,
     checks: u64,
     violations: u64,
+    misled: Misled,
     first_violations: Vec<(SimTime, AuvId, Violation)>,
     widths: Vec<Option<ReportWidths>>,
     pings: Pings,
@@ -40,6 +41,7 @@ impl Tally {
             wakes: 0,
             checks: 0,
             violations: 0,
+            misled: Misled::default(),
             first_violations: Vec::new(),
             widths: vec![None; auvs],
             pings: Pings::default(),
@@ -60,7 +62,11 @@ impl Tally {
                 self.pings.emitted += 1;
                 self.pings.lost.range += u64::from(beyond_range);
             }
-            Fate::Heard { .. } => self.pings.heard += 1,
+            Fate::Heard { outlier, .. } => {
+                self.pings.heard += 1;
+                self.pings.outliers += u64::from(outlier);
+            }
+            Fate::Lost { to: None, reason: LossReason::HalfDuplex, .. } => self.pings.lost.unsent += 1,
             Fate::Lost { reason, .. } => {
                 let lost = &mut self.pings.lost;
                 *match reason {
@@ -80,8 +86,13 @@ impl Tally {
         self.happened(traffic.at, auv, What::Traffic(traffic));
     }
 
-    /// An enclosure was checked.
-    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>) {
+    /// An enclosure was checked; that of an AUV that was misled by an outlier is counted apart.
+    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>, misled: bool) {
+        if misled {
+            self.misled.checks += 1;
+            self.misled.violations += u64::from(violation.is_some());
+            return;
+        }
         self.checks += 1;
         let Some(violation) = violation else { return };
         self.violations += 1;
@@ -159,7 +170,7 @@ impl Tally {
             unit: violation.coordinate.unit().to_owned(),
         };
         let first = self.first_violations.iter().map(line).collect();
-        Containment { checks: self.checks, violations: self.violations, first, misled: Misled::default() }
+        Containment { checks: self.checks, violations: self.violations, first, misled: self.misled }
     }
 }
 

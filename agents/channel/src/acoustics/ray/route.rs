@@ -1,0 +1,264 @@
+//! Where a ray passes: stretches of depth, how often it crosses each, and where it turns.
+//!
+//! A ray of horizontal slowness `p` has the grazing sine `s = sqrt(1 - p² c²)` where the speed is `c`. Let `V` be the greatest speed on
+//! its way that it has to pass, and `w` the tangent of its grazing angle there: `p = 1 / (V sqrt(1 + w²))`. All sums are
+//! taken over `σ = s / (p V) = sqrt(w² + e)`, `e = (V² - c²) / V²`, which loses no digits however flat or steep the ray is. A layer of depth `h`
+//! between the speeds `a` and `b` takes the horizontal distance `(a + b) h / (V (σ_a + σ_b))`: no gradient divides, so a
+//! uniform layer is no special case.
+
+use super::arc::Arc;
+use crate::acoustics::profile::{Level, Node, Profile};
+
+/// Stands for a grazing tangent of zero where zero itself would divide.
+pub(super) const GRAZING: f64 = 1e-100;
+
+/// A stretch of depth between two levels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<'a> {
+    top: Node,
+    bottom: Node,
+    nodes: &'a [Node],
+    gradients_1_s: &'a [f64],
+    /// How often the ray passes it.
+    crossings: f64,
+}
+
+impl<'a> Stretch<'a> {
+    pub fn new(profile: &'a Profile, top: &Level, bottom: &Level, crossings: f64) -> Self {
+        let node = |level: &Level| Node { depth_m: level.depth_m, speed_m_s: level.speed_m_s };
+        Self {
+            top: node(top),
+            bottom: node(bottom),
+            nodes: profile.nodes_between(top, bottom),
+            gradients_1_s: profile.gradients_between_1_s(top, bottom),
+            crossings: if top.depth_m < bottom.depth_m { crossings } else { 0.0 },
+        }
+    }
+
+    /// Calls `visit` with the end of each layer and the layer's gradient, downwards.
+    #[inline(always)]
+    fn descend(&self, mut visit: impl FnMut(&Node, f64)) {
+        let ends = self.nodes.iter().chain(std::iter::once(&self.bottom));
+        for (end, &gradient_1_s) in ends.zip(self.gradients_1_s) {
+            visit(end, gradient_1_s);
+        }
+    }
+}
+
+/// A half turn at the far end of a route, inside one layer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    /// Speed of sound where the ray enters the layer and leaves it again, in m/s.
+    pub entry_m_s: f64,
+    /// Absolute gradient of the layer, in 1/s.
+    pub gradient_1_s: f64,
+}
+
+/// All that a ray passes between emitter and receiver.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Route<'a, const N: usize> {
+    stretches: [Stretch<'a>; N],
+    turn: Option<Turn>,
+    /// V, in m/s.
+    speed_m_s: f64,
+}
+
+/// What a ray does at the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Traced {
+    pub range_m: f64,
+    pub travel_s: f64,
+    pub length_m: f64,
+}
+
+/// The first terms of the range of steep rays: `range = reach / w (1 - bend / (4 w²) + ...)`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steep {
+    pub reach_m: f64,
+    pub bend: f64,
+}
+
+impl<'a, const N: usize> Route<'a, N> {
+    /// The route through `stretches` without a turn in the water.
+    pub fn along(stretches: [Stretch<'a>; N]) -> Self {
+        let mut speed_m_s = 0.0_f64;
+        for stretch in stretches.iter().filter(|stretch| stretch.crossings > 0.0) {
+            speed_m_s = speed_m_s.max(stretch.top.speed_m_s);
+            stretch.descend(|end, _| speed_m_s = speed_m_s.max(end.speed_m_s));
+        }
+        Self { stretches, turn: None, speed_m_s }
+    }
+
+    /// The route through `stretches` to a turn and back; `speed_m_s` is the greatest speed before the turn.
+    pub fn turning(stretches: [Stretch<'a>; N], turn: Turn, speed_m_s: f64) -> Self {
+        Self { stretches, turn: Some(turn), speed_m_s }
+    }
+
+    fn passed(&self) -> impl Iterator<Item = &Stretch<'a>> {
+        self.stretches.iter().filter(|stretch| stretch.crossings > 0.0)
+    }
+
+    /// `e` at a speed.
+    #[inline(always)]
+    fn excess(&self, speed_m_s: f64) -> f64 {
+        let v_m_s = self.speed_m_s;
+        (v_m_s - speed_m_s) * (v_m_s + speed_m_s) / (v_m_s * v_m_s)
+    }
+
+    /// Horizontal slowness in s/m of the ray with the grazing tangent `w` at `V`.
+    pub fn slowness_s_m(&self, w: f64) -> f64 {
+        1.0 / (self.speed_m_s * (1.0 + w * w).sqrt())
+    }
+
+    /// `w` of the ray with a horizontal slowness: zero for the grazing one, NaN for those that turn before.
+    pub fn tangent(&self, slowness_s_m: f64) -> f64 {
+        let flat = slowness_s_m * self.speed_m_s;
+        ((1.0 - flat) * (1.0 + flat)).sqrt() / flat
+    }
+
+    /// Sine of the grazing angle where the speed is `speed_m_s`.
+    pub fn sine(&self, w: f64, speed_m_s: f64) -> f64 {
+        if w < 1.0 {
+            ((w * w + self.excess(speed_m_s)) / (1.0 + w * w)).sqrt()
+        } else {
+            let flat = self.slowness_s_m(w) * speed_m_s;
+            (1.0 - flat * flat).sqrt()
+        }
+    }
+
+    /// The range of steep rays.
+    pub fn steep(&self) -> Steep {
+        let (mut area, mut bent) = (0.0, 0.0);
+        for stretch in self.passed() {
+            let mut upper = stretch.top;
+            let mut upper_excess = self.excess(upper.speed_m_s);
+            stretch.descend(|lower, _| {
+                let lower_excess = self.excess(lower.speed_m_s);
+                let share =
+                    (upper.speed_m_s + lower.speed_m_s) * (lower.depth_m - upper.depth_m) * stretch.crossings;
+                area += share;
+                bent += share * (upper_excess + lower_excess);
+                (upper, upper_excess) = (*lower, lower_excess);
+            });
+        }
+        Steep { reach_m: 0.5 * area / self.speed_m_s, bend: bent / area }
+    }
+
+    /// Range in metres of the ray with `w`, not zero, and its derivative.
+    #[inline]
+    pub fn range_m(&self, w: f64) -> (f64, f64) {
+        let square = w * w;
+        let scale = 1.0 / (self.speed_m_s * self.speed_m_s);
+        let sigma = |speed_m_s: f64| {
+            (square + (self.speed_m_s - speed_m_s) * (self.speed_m_s + speed_m_s) * scale).sqrt()
+        };
+        let (mut range, mut slope) = (0.0, 0.0);
+        for stretch in self.passed() {
+            let mut upper = stretch.top;
+            let mut upper_sigma = sigma(upper.speed_m_s);
+            let (mut part, mut part_slope) = (0.0, 0.0);
+            stretch.descend(|lower, _| {
+                let lower_sigma = sigma(lower.speed_m_s);
+                let product = upper_sigma * lower_sigma;
+                let share = (upper.speed_m_s + lower.speed_m_s) * (lower.depth_m - upper.depth_m)
+                    / ((upper_sigma + lower_sigma) * product);
+                part += share * product;
+                part_slope += share;
+                (upper, upper_sigma) = (*lower, lower_sigma);
+            });
+            range += stretch.crossings * part;
+            slope += stretch.crossings * part_slope;
+        }
+        let (mut range_m, mut slope_m) = (range / self.speed_m_s, -w * slope / self.speed_m_s);
+        if let Some(turn) = &self.turn {
+            let (radius_m, entry) = (self.speed_m_s / turn.gradient_1_s, sigma(turn.entry_m_s));
+            range_m += 2.0 * radius_m * entry;
+            slope_m += 2.0 * radius_m * w / entry;
+        }
+        (range_m, slope_m)
+    }
+
+    /// Bounds of the derivative of the range for all rays between `least` and `most`, and the least and greatest range.
+    pub fn bounds(&self, least: f64, most: f64) -> Bounds {
+        let sigma = |w: f64, speed_m_s: f64| (w * w + self.excess(speed_m_s)).sqrt();
+        let both = |speed_m_s: f64| (sigma(least, speed_m_s), sigma(most, speed_m_s));
+        let (mut longest, mut shortest) = (0.0, 0.0);
+        let (mut steepest, mut mildest) = (0.0, 0.0);
+        for stretch in self.passed() {
+            let mut upper = stretch.top;
+            let mut upper_sigma = both(upper.speed_m_s);
+            stretch.descend(|lower, _| {
+                let lower_sigma = both(lower.speed_m_s);
+                let share =
+                    (upper.speed_m_s + lower.speed_m_s) * (lower.depth_m - upper.depth_m) * stretch.crossings;
+                let sums = (upper_sigma.0 + lower_sigma.0, upper_sigma.1 + lower_sigma.1);
+                let products = (upper_sigma.0 * lower_sigma.0, upper_sigma.1 * lower_sigma.1);
+                longest += share / sums.0;
+                shortest += share / sums.1;
+                mildest += share * least / (sums.1 * products.1);
+                // w <= σ bounds w / (σ σ') where a σ may vanish.
+                let flattest = (most / products.0).min(1.0 / upper_sigma.0.max(lower_sigma.0));
+                steepest += share / sums.0 * flattest;
+                (upper, upper_sigma) = (*lower, lower_sigma);
+            });
+        }
+        let v_m_s = self.speed_m_s;
+        let mut bounds = Bounds {
+            ends_m: (longest / v_m_s, shortest / v_m_s),
+            range_m: (shortest / v_m_s, longest / v_m_s),
+            slope_m: (-steepest / v_m_s, -mildest / v_m_s),
+        };
+        if let Some(turn) = &self.turn {
+            let (diameter_m, entry) = (2.0 * v_m_s / turn.gradient_1_s, both(turn.entry_m_s));
+            bounds.ends_m.0 += diameter_m * entry.0;
+            bounds.ends_m.1 += diameter_m * entry.1;
+            bounds.range_m.0 += diameter_m * entry.0;
+            bounds.range_m.1 += diameter_m * entry.1;
+            bounds.slope_m.0 += diameter_m * least / entry.0;
+            bounds.slope_m.1 += diameter_m * most / entry.1;
+        }
+        bounds
+    }
+
+    /// Follows the ray with `w`.
+    pub fn trace(&self, w: f64) -> Traced {
+        let square = w * w;
+        let sigma = |speed_m_s: f64| (square + self.excess(speed_m_s)).sqrt();
+        let mut traced = Traced { range_m: 0.0, travel_s: 0.0, length_m: 0.0 };
+        let mut add = |arc: Arc, times: f64| {
+            let (travel_s, length_m) = arc.measure();
+            traced.range_m += times * arc.range_m;
+            traced.travel_s += times * travel_s;
+            traced.length_m += times * length_m;
+        };
+        for stretch in self.passed() {
+            let mut upper = stretch.top;
+            let mut upper_sigma = sigma(upper.speed_m_s);
+            stretch.descend(|lower, gradient_1_s| {
+                let lower_sigma = sigma(lower.speed_m_s);
+                let mean_speed_m_s = 0.5 * (upper.speed_m_s + lower.speed_m_s);
+                let depth_m = lower.depth_m - upper.depth_m;
+                let range_m = 2.0 * mean_speed_m_s * depth_m / (self.speed_m_s * (upper_sigma + lower_sigma));
+                add(Arc { range_m, depth_m, mean_speed_m_s, gradient_1_s }, stretch.crossings);
+                (upper, upper_sigma) = (*lower, lower_sigma);
+            });
+        }
+        if let Some(turn) = &self.turn {
+            let range_m = 2.0 * self.speed_m_s / turn.gradient_1_s * sigma(turn.entry_m_s);
+            let gradient_1_s = turn.gradient_1_s;
+            add(Arc { range_m, depth_m: 0.0, mean_speed_m_s: turn.entry_m_s, gradient_1_s }, 1.0);
+        }
+        traced
+    }
+}
+
+/// What is known of the range of all rays between two grazing tangents.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// The ranges at the least and at the greatest tangent, in metres.
+    pub ends_m: (f64, f64),
+    /// No ray in between has less range, none more, in metres.
+    pub range_m: (f64, f64),
+    /// The derivative lies between these.
+    pub slope_m: (f64, f64),
+}
