@@ -129,10 +129,14 @@ pub struct BodyBounds {
     pub speed_m_s: f64,
     /// Bound of `|dv/dt|` in m/s², turning included.
     pub acceleration_m_s2: f64,
-    /// The current, anywhere in the area, in m/s.
+    /// The current, wherever the body is, in m/s.
     pub current_m_s: BoundsBox,
-    /// Bound of how fast the current that the moving body meets changes, in m/s², per axis.
+    /// How fast the current that the moving body meets changes, in m/s², per axis: at two moments `dt` true seconds apart its
+    /// components differ by at most `current_change_m_s2 * dt + current_step_m_s`. Zero where the current is uniform.
     pub current_change_m_s2: [f64; 3],
+    /// The part of that change which may come at once, in m/s, per axis: the current that acts on a body is constant between
+    /// knots of true time and jumps at each to what it is at the body's place. Zero where the current is uniform.
+    pub current_step_m_s: [f64; 3],
     /// The state noise of seed 001, equation (5.1), in m/s, with the rounding of the simulator's integrator inside.
     pub disturbance_m_s: BoundsBox,
 }

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use toml::de::DeValue;
+
 use crate::body::Catalogue;
 use crate::environment::norm;
 use crate::model::{AuvSabotage, Clock, Environment, Group, Kind};
+use crate::modem::{Surroundings as ModemSurroundings, modem};
 use crate::reader::Table;
-use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS, modem, sensors};
+use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS, sensors};
 use crate::start::start;
 use crate::steering::{Surroundings, controller, estimator};
 use crate::{AUVS_MAX, window_limit_ns};
@@ -36,6 +39,7 @@ pub(crate) fn group(
     clocks: &Catalogue<Clock>,
     environment: Option<&Environment>,
     group_names: &[&str],
+    auvs: Option<u32>,
 ) -> GroupRead {
     let name = table.text("name", None).filter(|name| name_is_good(&table, "name", name));
     let count =
@@ -45,7 +49,7 @@ pub(crate) fn group(
     let control_period_ns = control_period(&table);
     let reaction_ns = table.time_ns("reaction_s", Some(TENTH_NS), PERIOD_MIN_NS);
     let sensors = sensors(&table);
-    let modem = modem(&table);
+    let modem = modem(&table, &ModemSurroundings { environment, auvs });
     let estimator = estimator(&table);
     let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });
     let start = start(&table, environment, kind.as_ref(), controller.as_ref(), count);
@@ -137,4 +141,14 @@ pub(crate) fn group_names<'t>(tables: &[Table<'t>]) -> Vec<&'t str> {
         }
     }
     names
+}
+
+/// The number of AUVs of all groups, as far as it can be told before they are read; wrong counts are reported with their
+/// group.
+pub(crate) fn auvs_written(tables: &[Table<'_>]) -> Option<u32> {
+    let mut counts = tables.iter().map(|table| match table.get("count")?.get_ref() {
+        DeValue::Integer(integer) => u32::from_str_radix(integer.as_str(), integer.radix()).ok(),
+        _ => None,
+    });
+    counts.try_fold(0_u32, |auvs, count| auvs.checked_add(count?))
 }

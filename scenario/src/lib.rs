@@ -36,11 +36,39 @@
 //! | `on_crash` | | `"drift"` | when an AUV's process ends, its body will `"drift"` on, or the run will `"abort"` |
 //! | **`[environment]`** | | needed | |
 //! | `area_m` | m | needed | `[[west, east], [south, north], [bottom, top]]` of the mission |
-//! | `level` | | `"ideal"` | `"ideal"`: constant speed of sound, sharp range limit |
-//! | `sound_speed_m_s` | m/s | 1500 | speed of sound; more than twice the fastest body |
-//! | `sound_speed_error_m_s` | m/s | 0 | error of the stated speed |
+//! | `level` | | `"ideal"` | `"ideal"`: constant speed of sound, sharp range limit; `"sea"`: sound as in water |
+//! | `sound_speed_m_s` | m/s | 1500 | speed of sound, where no profile is given; more than twice that of the fastest body |
+//! | `sound_speed_error_m_s` | m/s | 0 | error of the stated speed, the same everywhere |
 //! | `current_m_s` | m/s | `[0, 0, 0]` | true current |
 //! | `current_error_m_s` | m/s | `[0, 0, 0]` | error of the stated current, per axis |
+//! | `current_field` | | `"uniform"` | table with `name` `"shear"` or `"vortex"`, added to the current; see [`CurrentField`]: |
+//! | `current_field.surface_m_s`, `.deep_m_s` | m/s | needed | shear: current at the surface, and at its depth and below |
+//! | `current_field.depth_m` | m | needed | shear: depth down to which it changes |
+//! | `current_field.centre_m` | m | needed | vortex: `[east, north]` of its vertical axis |
+//! | `current_field.core_radius_m` | m | needed | vortex: radius of its core |
+//! | `current_field.speed_m_s` | m/s | needed | vortex: speed at the rim of the core; negative turns clockwise |
+//! | **`[environment.sea]`** | | | at level `"sea"` only |
+//! | `bottom_depth_m` | m | bottom of the area | depth of the sea floor; the area must not be deeper |
+//! | `sound_speed` | | `"uniform"` | `"mixed-layer"`, `"summer-thermocline"`, `"arctic"`, `"munk"`, or a table: |
+//! | `sound_speed.depths_m` | m | needed | 2 to 1000 depths, increasing; speeds are linear in between, constant above and below |
+//! | `sound_speed.speeds_m_s` | m/s | needed | one for each depth, 1300 to 1800; or instead of them: |
+//! | `sound_speed.temperatures_c` | °C | needed | one for each depth, -3 to 45 |
+//! | `sound_speed.salinities_psu` | PSU | needed | one for each depth, 0 to 45 |
+//! | `sound_speed.formula` | | `"chen-millero"` | or `"mackenzie"` to 8,000 m, `"medwin"` to 1,000 m, `"del-grosso"` |
+//! | `temperature_c`, `salinity_psu`, `ph` | °C, PSU | 10, 35, 8 | of the water that absorbs sound |
+//! | `absorption` | | `"francois-garrison"` | or `"ainslie-mccolm"`, `"thorp-stojanovic"`, `"thorp-jkps"` |
+//! | `spreading_exponent` | | 1.5 | 1 cylindrical, 1.5 practical, 2 spherical |
+//! | `shipping` | | 0.5 | shipping noise, 0 to 1 |
+//! | `wind_m_s` | m/s | 5 | noise, and roughness of the surface |
+//! | `surface_loss_db` | dB | from the wind | loss at each bounce off the surface |
+//! | `bottom` | | `"sand"` | one of [`presets::BOTTOMS`], or a table with the three: |
+//! | `bottom.density_kg_m3` | kg/m³ | needed | |
+//! | `bottom.sound_speed_m_s` | m/s | needed | |
+//! | `bottom.attenuation_db_wavelength` | dB | needed | per wavelength |
+//! | `bounces_max` | | 2 | paths with so many bounces are heard; 0 to 8 |
+//! | `fading` | | `"rician"` | how levels fluctuate: `"gaussian"` (not at all), `"rayleigh"`, `"rician"`, or a table with `kind`: |
+//! | `fading.k_db` | dB | 6 | rician: power of the steady part over that of the rest |
+//! | `fading.per` | | `"packet"` | one draw for each `"packet"` and path, or averaged over each `"bit"` |
 //! | **`[kind.NAME]`, `kind = {...}`** | | | a body of one's own, in full or beginning with `like` |
 //! | `like` | | | preset or other kind that fills in what is not said |
 //! | `speed_max_m_s` | m/s | needed | greatest speed through the water |
@@ -107,18 +135,24 @@
 //! | `shifted_truth` | s | | `{ auv = 0, at_s = 5 }` moves that AUV's truth by a metre at that time |
 
 mod body;
+mod current;
 mod diagnostics;
 mod document;
 mod environment;
 mod examples;
 mod group;
 mod library;
+mod medium_access;
 pub mod model;
+mod modem;
 mod number;
 mod overrides;
+mod packet;
 pub mod presets;
 mod reader;
+mod sea;
 mod sensing;
+mod sound_speed;
 mod start;
 mod steering;
 mod time;
@@ -128,6 +162,7 @@ pub use document::parse;
 pub use library::{LibraryEntry, LoadError, library, load};
 pub use model::*;
 pub use overrides::{OverrideError, Overrides};
+pub use packet::{FRAME_BYTES_MAX, PING_BYTES};
 
 /// Most AUVs that a run can have.
 pub const AUVS_MAX: u32 = 65_536;

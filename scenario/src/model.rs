@@ -378,8 +378,8 @@ pub struct Gnss {
 /// The acoustic modem.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Modem {
-    /// Its name, when it is one of [`presets::MODEMS`](crate::presets::MODEMS) or like one.
-    pub name: String,
+    /// Name of the one of [`presets::MODEMS`](crate::presets::MODEMS) that it is, or is like.
+    pub name: &'static str,
     /// Others hear it up to this range at level `ideal`, in metres.
     pub range_m: f64,
     /// When it emits.

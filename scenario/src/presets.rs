@@ -1,6 +1,15 @@
-//! Bodies and clocks by name. What a scenario file calls `kind = "lauv"` or `clock = "tcxo"` is here and nowhere else.
+//! Bodies, clocks, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or `modem = "popoto"` is
+//! here and nowhere else.
 
-use crate::model::{Clock, Kind};
+mod budget;
+mod modem;
+
+pub use budget::{BUDGET_SHIPPING, BUDGET_WIND_M_S, BUDGETS, Budget};
+pub use modem::{
+    EVOLOGICS_18_34, IDEAL, MICROMODEM_FSK, MICROMODEM_PSK, MODEM_DEFAULT, MODEMS, POPOTO, SEATRAC,
+};
+
+use crate::model::{Bottom, Clock, Kind};
 
 /// Kind of a group that does not say its kind.
 pub const KIND_DEFAULT: &str = "lauv";
@@ -63,4 +72,16 @@ pub const CLOCKS: &[(&str, Clock)] = &[
     ("tcxo", Clock { drift_bound: 1e-6, wander_fraction: 0.5, offset_bound_s: 0.0 }),
     // Chip-scale atomic clock, Microchip SA.45s data sheet: some 1e-10, after warming up and without ageing.
     ("csac", Clock { drift_bound: 1e-10, wander_fraction: 0.5, offset_bound_s: 0.0 }),
+];
+
+/// Sea floors by name, as fluids: F. B. Jensen, W. A. Kuperman, M. B. Porter and H. Schmidt, *Computational Ocean Acoustics*,
+/// 2nd edition (Springer 2011), table 1.3, with water of 1,000 kg/m³ and 1,500 m/s; the table goes back to E. L. Hamilton,
+/// "Geoacoustic modeling of the sea floor", J. Acoust. Soc. Am. 68 (1980), 1313-1340.
+pub const BOTTOMS: &[(&str, Bottom)] = &[
+    ("clay", Bottom { density_kg_m3: 1500.0, sound_speed_m_s: 1500.0, attenuation_db_wavelength: 0.2 }),
+    ("silt", Bottom { density_kg_m3: 1700.0, sound_speed_m_s: 1575.0, attenuation_db_wavelength: 1.0 }),
+    ("sand", Bottom { density_kg_m3: 1900.0, sound_speed_m_s: 1650.0, attenuation_db_wavelength: 0.8 }),
+    ("gravel", Bottom { density_kg_m3: 2000.0, sound_speed_m_s: 1800.0, attenuation_db_wavelength: 0.6 }),
+    // Basalt. Its shear waves, which take energy at steep angles, are left out: real rock reflects a little less.
+    ("rock", Bottom { density_kg_m3: 2700.0, sound_speed_m_s: 5250.0, attenuation_db_wavelength: 0.1 }),
 ];

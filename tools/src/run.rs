@@ -140,7 +140,7 @@ fn in_this_program(
         Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
         None => None,
     };
-    let mut channel = Channel::new(scenario);
+    let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut fleet = Local::new(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
     channel.stillborn(losses);

@@ -13,7 +13,8 @@
 //! | `history.rs` | the tube that is remembered |
 //! | `controller/` | hold, circle, waypoints, reynolds |
 //! | `neighbours.rs` | who is around |
-//! | `modem.rs` | when to ping and what to say |
+//! | `medium_access/` | when to ping |
+//! | `modem.rs` | what to say |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -21,9 +22,12 @@ mod bounds;
 pub mod controller;
 pub mod estimator;
 mod history;
+pub mod medium_access;
 pub mod modem;
 pub mod motion;
 pub mod neighbours;
+#[cfg(test)]
+mod newborn;
 mod sabotage;
 pub mod state;
 pub mod tube_estimator;

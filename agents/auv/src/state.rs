@@ -158,6 +158,7 @@ mod tests {
             acceleration_m_s2: 1.0,
             current_m_s: [Bounds::default(); 3],
             current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
             disturbance_m_s: [Bounds::default(); 3],
         };
         Motion::new(&body, &ClockBounds { drift: 1e-4, offset_s: Bounds::default(), stamp_ns: 2 })

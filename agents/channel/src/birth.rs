@@ -1,10 +1,13 @@
 //! From a scenario to the AUVs of a run: where each really is, and what it is told.
 
+mod access;
+mod bounds;
+
 use nalgebra::Vector3;
 use pxfm::f_sincos;
 use shoal_bus::message::{
-    AuvId, BodyBounds, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, MediumAccess,
-    ModemBounds, Orders, Sabotage, Wake,
+    AuvId, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, MediumAccess, Orders,
+    Sabotage, Wake,
 };
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
@@ -13,32 +16,7 @@ use crate::body::{Attitude, Body, Vec3};
 use crate::clock::{STAMP_NS, TrueClock};
 use crate::draw::{Draws, Purpose};
 use crate::sensors::{Sensors, rounding};
-use crate::sound::ARRIVAL_TOLERANCE_S;
-
-/// The id of draws that concern no vehicle.
-const WATER: AuvId = AuvId(u32::MAX);
-
-/// What the scenario states within bounds and the truth settles once for the whole run.
-#[derive(Clone, Copy, Debug)]
-pub struct Water {
-    /// True speed of sound in m/s.
-    pub sound_speed_m_s: f64,
-    /// True current in m/s.
-    pub current_m_s: Vec3,
-}
-
-impl Water {
-    /// The water of a run.
-    pub fn new(scenario: &Scenario) -> Self {
-        let mut draws = Draws::new(scenario.seed, Purpose::Water, WATER, scenario.noise);
-        let environment = &scenario.environment;
-        let sound_speed_m_s = environment.sound_speed_m_s + draws.error(environment.sound_speed_error_m_s);
-        let current_m_s = Vector3::from_fn(|axis, _| {
-            environment.current_m_s[axis] + draws.error(environment.current_error_m_s[axis])
-        });
-        Self { sound_speed_m_s, current_m_s }
-    }
-}
+use crate::water::Water;
 
 /// An AUV at true time zero.
 pub struct Newborn {
@@ -65,14 +43,21 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
     let birth = clock.read(SimTime::ZERO);
     let mut within = |period_ns: i64| 1 + (phase.unit() * (period_ns - 1) as f64) as i64;
     let first_tick = birth + within(group.control_period_ns);
-    let first_ping_ns = birth_phase_ns(&group.modem.access).map(&mut within);
+    let first_ping_ns = access::drawn_within_ns(&group.modem.access).map(&mut within);
     let first_fix = birth + group.sensors.gnss.as_ref().map_or(0, |gnss| within(gnss.period_ns));
 
     let (position_m, attitude) = placed(group, index, &mut start);
     let prior_position_m = prior_box(group, &position_m, &mut start);
-    let body =
-        Body::new(&group.kind, water.current_m_s, scenario.knot_ns, position_m, attitude, (seed, auv, noise));
-    let access = access(&group.modem.access, birth + first_ping_ns.unwrap_or(0), &mut phase);
+    let body = Body::new(
+        &group.kind,
+        water.current.clone(),
+        scenario.knot_ns,
+        position_m,
+        attitude,
+        (seed, auv, noise),
+    );
+    let first_ping = birth + first_ping_ns.unwrap_or(0);
+    let access = access::orders(scenario, group, water, auv, first_ping, &mut phase);
     let offset_s = group.clock.offset_bound_s + 4.0 * STAMP_NS as f64 * 1e-9;
     let born = Born {
         auv,
@@ -86,37 +71,16 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         },
         birth,
         prior_position_m,
-        body: body_bounds(scenario, group),
-        modem: modem_bounds(scenario, group),
+        body: bounds::body(scenario, group),
+        modem: bounds::modem(scenario, group, water),
         orders: orders(scenario, group, index, access),
     };
     Newborn {
         clock,
         body,
-        sensors: Sensors::new(&group.sensors, seed, auv, noise, first_fix),
+        sensors: Sensors::new(&group.sensors, scenario.bottom_depth_m(), (seed, auv, noise), first_fix),
         arrivals: Draws::new(seed, Purpose::Arrival, auv, noise),
         born,
-    }
-}
-
-/// The period within which the first ping is drawn.
-fn birth_phase_ns(access: &model::MediumAccess) -> Option<i64> {
-    match *access {
-        model::MediumAccess::Silent | model::MediumAccess::Slotted { .. } => None,
-        model::MediumAccess::Periodic { period_ns, .. } | model::MediumAccess::Csma { period_ns, .. } => {
-            Some(period_ns)
-        }
-        model::MediumAccess::Aloha { mean_period_ns } => Some(mean_period_ns),
-    }
-}
-
-/// When an AUV pings, as it is told; `drawn` is the first ping where none is stated.
-fn access(of: &model::MediumAccess, drawn: LocalTime, _draws: &mut Draws) -> MediumAccess {
-    match *of {
-        model::MediumAccess::Periodic { period_ns, phase_ns } => {
-            MediumAccess::Periodic { first: phase_ns.map_or(drawn, LocalTime::from_ns), period_ns }
-        }
-        _ => MediumAccess::Silent,
     }
 }
 
@@ -180,44 +144,6 @@ fn prior_box(group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
         let slack_m = rounding(truth_m.abs() + width_m);
         Bounds::new(truth_m - below_m - slack_m, truth_m - below_m + width_m + slack_m)
     })
-}
-
-fn body_bounds(scenario: &Scenario, group: &Group) -> BodyBounds {
-    let environment = &scenario.environment;
-    let around = |value: f64, error: f64| {
-        let error = error + rounding(value.abs() + error);
-        Bounds::new(value - error, value + error)
-    };
-    // Each knot rounds a position as large as the area.
-    let extent_m = environment.area_m.iter().flatten().fold(0.0_f64, |extent, side| extent.max(side.abs()));
-    let knots_per_s = 1e9 / scenario.knot_ns as f64;
-    let integrator_m_s = rounding(2.0 * extent_m * (1.0 + knots_per_s));
-    BodyBounds {
-        speed_m_s: group.kind.speed_max_m_s + rounding(group.kind.speed_max_m_s),
-        acceleration_m_s2: Body::acceleration_bound_m_s2(&group.kind),
-        current_m_s: std::array::from_fn(|axis| {
-            around(environment.current_m_s[axis], environment.current_error_m_s[axis])
-        }),
-        current_change_m_s2: [0.0; 3],
-        disturbance_m_s: group.kind.disturbance_m_s.map(|bound_m_s| around(0.0, bound_m_s + integrator_m_s)),
-    }
-}
-
-fn modem_bounds(scenario: &Scenario, group: &Group) -> ModemBounds {
-    let environment = &scenario.environment;
-    let error_m_s = environment.sound_speed_error_m_s + rounding(environment.sound_speed_m_s);
-    let farthest_m =
-        scenario.groups.iter().fold(0.0_f64, |farthest, group| farthest.max(group.modem.range_m));
-    ModemBounds {
-        range_m: group.modem.range_m,
-        hearing_range_m: farthest_m + rounding(farthest_m),
-        sound_speed_m_s: Bounds::new(
-            environment.sound_speed_m_s - error_m_s,
-            environment.sound_speed_m_s + error_m_s,
-        ),
-        timestamp_s: group.modem.timestamp_error_s + ARRIVAL_TOLERANCE_S,
-        frame_bytes: group.modem.frame_bytes,
-    }
 }
 
 fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) -> Orders {

@@ -35,6 +35,10 @@ pub struct Link {
     source_level_db: f64,
     spreading_db: f64,
     absorption_db_m: f64,
+    /// Centre of the emitter's band in kHz.
+    pub frequency_khz: f64,
+    /// Fainter than this, in dB re 1 µPa, nothing even disturbs.
+    pub floor_db: f64,
     /// Whether the receiver can decode what the emitter sends: same band, modulation and bit rate.
     pub known: bool,
     /// A path longer than this, in metres, is too faint to be noticed even in quiet water.
@@ -50,6 +54,8 @@ impl Link {
             source_level_db: emitter.source_level_db + db_from_power(overlap(emitter, receiver)),
             spreading_db: 10.0 * sea.spreading_exponent,
             absorption_db_m: absorption_db_m(sea, emitter.centre_hz),
+            frequency_khz: emitter.centre_hz * 1e-3,
+            floor_db: 0.0,
             known: emitter.centre_hz == receiver.centre_hz
                 && emitter.bandwidth_hz == receiver.bandwidth_hz
                 && emitter.bit_rate_bit_s == receiver.bit_rate_bit_s
@@ -59,7 +65,9 @@ impl Link {
         };
         let noise_db = noise_db(sea, receiver);
         link.reach_m = link.length_at_m(noise_db + receiver.detection_threshold_db - fade_margin_db(sea));
-        link.floor_m = link.length_at_m(noise_db - FLOOR_DB).max(link.reach_m);
+        link.floor_db =
+            (noise_db - FLOOR_DB).min(noise_db + receiver.detection_threshold_db - fade_margin_db(sea));
+        link.floor_m = link.length_at_m(link.floor_db);
         link
     }
 
@@ -93,9 +101,8 @@ pub fn nominal_reach_m(sea: &Sea, physical: &PhysicalLayer) -> f64 {
 
 /// Part of the emitter's band that lies in the receiver's.
 fn overlap(emitter: &PhysicalLayer, receiver: &PhysicalLayer) -> f64 {
-    let edges = |of: &PhysicalLayer| {
-        (of.centre_hz - 0.5 * of.bandwidth_hz, of.centre_hz + 0.5 * of.bandwidth_hz)
-    };
+    let edges =
+        |of: &PhysicalLayer| (of.centre_hz - 0.5 * of.bandwidth_hz, of.centre_hz + 0.5 * of.bandwidth_hz);
     let ((from, to), (lower, upper)) = (edges(emitter), edges(receiver));
     ((to.min(upper) - from.max(lower)) / emitter.bandwidth_hz).clamp(0.0, 1.0)
 }

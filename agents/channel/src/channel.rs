@@ -14,7 +14,8 @@ use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::{Scenario, WaterSabotage};
 use thiserror::Error;
 
-use crate::birth::{self, Water};
+use crate::acoustics::profile::ProfileError;
+use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::check::{self, Check};
 use crate::digest::Digest;
@@ -24,6 +25,7 @@ use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
 use crate::tally::Tally;
 use crate::vehicle::{Planned, Vehicle};
+use crate::water::Water;
 
 /// Why a run cannot go on.
 #[derive(Debug, Error)]
@@ -36,6 +38,9 @@ pub enum ChannelError {
         /// What the fastest AUV allows.
         lookahead_ns: i64,
     },
+    /// The scenario's speed of sound over depth is none.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// A message could not be hashed.
     #[error(transparent)]
     Codec(#[from] CodecError),
@@ -53,7 +58,7 @@ pub enum ChannelError {
 /// use shoal_channel::channel::Channel;
 ///
 /// let (source_name, text) = shoal_scenario::load("two-circles")?;
-/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?);
+/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?)?;
 /// let sensed = channel.advance(SimTime::from_ns(9_000_000))?;
 /// // Both AUVs woke a thousand times a second of their own clocks.
 /// assert_eq!(sensed.len(), 2);
@@ -82,14 +87,17 @@ pub struct Channel {
 
 impl Channel {
     /// The water of `scenario` at true time zero.
-    pub fn new(scenario: &Scenario) -> Self {
-        let water = Water::new(scenario);
+    ///
+    /// # Errors
+    /// [`ChannelError::Profile`] for a scenario that no file can say.
+    pub fn new(scenario: &Scenario) -> Result<Self, ChannelError> {
+        let water = Water::new(scenario)?;
         let mut vehicles = Vec::with_capacity(scenario.auv_count() as usize);
         for (group_index, group) in scenario.groups.iter().enumerate() {
             for index in 0..group.count {
                 let auv = AuvId(vehicles.len() as u32);
                 let newborn = birth::newborn(scenario, &water, auv, group_index as u16, index);
-                let speed_m_s = Body::ground_speed_bound_m_s(&group.kind, &water.current_m_s);
+                let speed_m_s = Body::ground_speed_bound_m_s(&group.kind, &water.current);
                 let (length_m, error_s) = (group.kind.length_m, group.modem.timestamp_error_s);
                 vehicles.push(Vehicle::new(newborn, speed_m_s, length_m, error_s));
             }
@@ -99,7 +107,7 @@ impl Channel {
         {
             vehicle.body.shift_truth(SimTime::from_ns(at_ns));
         }
-        Self {
+        Ok(Self {
             scenario: scenario.clone(),
             tally: Tally::new(vehicles.len()),
             medium: Medium::new(scenario, &water, &vehicles),
@@ -114,7 +122,7 @@ impl Channel {
             chronicled: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
-        }
+        })
     }
 
     /// What each AUV is told at birth, sorted by AUV.

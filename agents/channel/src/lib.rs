@@ -11,6 +11,8 @@
 //! | `channel.rs` | windows, wakes, answers |
 //! | `birth.rs` | from scenario to newborn AUVs |
 //! | `vehicle.rs` | one AUV as the water knows it |
+//! | `water.rs` | what the water really is |
+//! | `current.rs` | the true current |
 //! | `body.rs` | true motion |
 //! | `clock.rs` | true clocks |
 //! | `sensors.rs` | measurements inside stated bounds |
@@ -20,6 +22,8 @@
 //! | `grid.rs` | who is near |
 //! | `ideal.rs` | sound as a sphere with a sharp edge |
 //! | `medium.rs` | either level behind one face |
+//! | `budget.rs` | the sonar equation |
+//! | `sea.rs` | sound as in water |
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
@@ -28,9 +32,11 @@
 pub mod acoustics;
 pub mod birth;
 pub mod body;
+pub mod budget;
 pub mod channel;
 pub mod check;
 pub mod clock;
+pub mod current;
 pub mod digest;
 pub mod draw;
 pub mod flock;
@@ -38,7 +44,9 @@ pub mod grid;
 mod ideal;
 mod medium;
 pub mod reception;
+mod sea;
 pub mod sensors;
 pub mod sound;
 mod tally;
 pub mod vehicle;
+pub mod water;

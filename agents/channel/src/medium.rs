@@ -6,11 +6,11 @@ use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_scenario::model::{Level, Scenario};
 
-use crate::birth::Water;
 use crate::grid::Grid;
 use crate::ideal::Ideal;
 use crate::sound::{Told, Wavefront};
 use crate::vehicle::Vehicle;
+use crate::water::Water;
 
 /// What carries pings from emitters to receivers.
 pub enum Medium {

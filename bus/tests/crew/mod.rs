@@ -155,6 +155,7 @@ pub fn born(count: u32) -> Vec<Born> {
             acceleration_m_s2: 1.0,
             current_m_s: side,
             current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
             disturbance_m_s: side,
         },
         modem: ModemBounds {
