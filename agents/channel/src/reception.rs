@@ -292,7 +292,8 @@ impl Ear {
     fn start(&mut self) {
         let Some(Reverse(Awaited(arrival))) = self.awaited.pop() else { return };
         let mean_power = f_exp10(0.1 * arrival.level_db);
-        let mut sound = Sound { arrival, power: mean_power, gain: 1.0, chance: 1.0, standing: Standing::Missed };
+        let mut sound =
+            Sound { arrival, power: mean_power, gain: 1.0, chance: 1.0, standing: Standing::Missed };
         if let ArrivalKind::Packet { asleep, known, .. } = arrival.kind {
             sound.gain = self.gain.draw(&mut self.draws);
             sound.power = mean_power * sound.gain;
@@ -383,7 +384,8 @@ impl Ear {
             sinr_db: 10.0 * f_log10(sinr),
             doppler: arrival.doppler,
         };
-        if standing == Standing::Followed && chance < self.decoder.success(&arrival, bits, power, &self.stretches)
+        if standing == Standing::Followed
+            && chance < self.decoder.success(&arrival, bits, power, &self.stretches)
         {
             let outcome = Outcome { arrival, at, reception, verdict: Verdict::Heard };
             return self.packets.heard(arrival.packet()).then_some(outcome);

@@ -98,9 +98,7 @@ impl Decoder {
 
     /// Bisection over the exponent; infinite where errors fade away too slowly, as in Rayleigh fading.
     fn search_certain_sinr(&self) -> f64 {
-        let is_certain = |sinr_db: f64| {
-            self.bit_error_rate(f_exp10(0.1 * sinr_db)) * MOST_BITS < NEGLIGIBLE
-        };
+        let is_certain = |sinr_db: f64| self.bit_error_rate(f_exp10(0.1 * sinr_db)) * MOST_BITS < NEGLIGIBLE;
         let (mut below_db, mut above_db) = (-100.0, 100.0);
         if !is_certain(above_db) {
             return f64::INFINITY;

@@ -32,9 +32,7 @@ impl Gain {
                 let k = f_exp10(0.1 * k_db);
                 // K beyond what f64 holds is no fading.
                 match k.is_finite() {
-                    true => {
-                        Self::Scattered { steady: (k / (1.0 + k)).sqrt(), scattered: 1.0 / (1.0 + k) }
-                    }
+                    true => Self::Scattered { steady: (k / (1.0 + k)).sqrt(), scattered: 1.0 / (1.0 + k) },
                     false => Self::Steady,
                 }
             }

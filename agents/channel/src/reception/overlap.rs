@@ -110,7 +110,9 @@ impl Overlaps {
         let mut named = Vec::new();
         let mut weights = std::mem::take(&mut self.weights);
         weights.clear();
-        weights.extend(self.others(copy).map(|(other, overlap_ns)| (other.power * overlap_ns, other.arrival.from)));
+        weights.extend(
+            self.others(copy).map(|(other, overlap_ns)| (other.power * overlap_ns, other.arrival.from)),
+        );
         name_loudest(&mut weights, &mut named);
         match copy.standing {
             Standing::Missed => {
