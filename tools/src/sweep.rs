@@ -115,7 +115,7 @@ fn exit(rows: &[Row], is_interrupted: bool) -> Exit {
 
 /// One run without processes; `None` when the user stopped it.
 fn carry_out(scenario: &Scenario, interrupted: &AtomicBool) -> Result<Option<Summary>, Failure> {
-    let mut channel = Channel::new(scenario);
+    let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut fleet = Local::new(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
     channel.stillborn(losses);

@@ -29,6 +29,7 @@ pub fn newborn(access: MediumAccess) -> Born {
             acceleration_m_s2: 1.0,
             current_m_s: [none; 3],
             current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
             disturbance_m_s: [none; 3],
         },
         modem: ModemBounds {

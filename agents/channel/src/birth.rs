@@ -9,7 +9,7 @@ use shoal_bus::message::{
     AuvId, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, MediumAccess, Orders,
     Sabotage, Wake,
 };
-use shoal_bus::time::{LocalTime, SimTime};
+use shoal_bus::time::SimTime;
 use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
 
 use crate::body::{Attitude, Body, Vec3};

@@ -251,7 +251,8 @@ impl Channel {
     }
 
     fn emit_one(&mut self, at: SimTime, from: AuvId, planned: Planned) {
-        let packet_ns = self.medium.packet_ns(from, planned.frame.bytes().len());
+        let group = self.vehicles[from.0 as usize].born.group;
+        let packet_ns = self.medium.packet_ns(group, planned.frame.bytes().len() as u16);
         if let Some(reason) = self.held_back(at, from, &planned) {
             let sequence = self.vehicles[from.0 as usize].emitted;
             let fate = Fate::lost(None, reason, 0.0);

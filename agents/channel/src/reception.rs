@@ -38,7 +38,6 @@ mod tests;
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BinaryHeap, VecDeque};
 
-use pxfm::{f_exp10, f_log10};
 use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{LossReason, Reception, SoundPath};
@@ -49,6 +48,7 @@ use self::decoder::{Decoder, Stretch};
 use self::fading::Gain;
 use self::overlap::{Overlaps, Sound, Standing};
 use self::packets::{Hope, LostCopy, PacketId, Packets};
+use crate::acoustics::decibel::{db_from_power, power_from_db};
 use crate::draw::Draws;
 
 /// One packet by one path at this receiver.
@@ -217,12 +217,12 @@ impl Ear {
     /// A receiver that draws from its own stream ([`Purpose::Reception`](crate::draw::Purpose::Reception)).
     pub fn new(settings: EarSettings, draws: Draws) -> Self {
         let EarSettings { noise_db, physical, fading, sense_ns } = settings;
-        let noise = f_exp10(0.1 * noise_db);
-        let detection_sinr = f_exp10(0.1 * physical.detection_threshold_db);
+        let noise = power_from_db(noise_db);
+        let detection_sinr = power_from_db(physical.detection_threshold_db);
         Self {
             noise,
             detection_sinr,
-            capture_ratio: f_exp10(0.1 * physical.capture_db),
+            capture_ratio: power_from_db(physical.capture_db),
             gain: Gain::new(fading),
             decoder: Decoder::new(&physical, fading, noise),
             draws,
@@ -291,7 +291,7 @@ impl Ear {
     /// The next arrival begins.
     fn start(&mut self) {
         let Some(Reverse(Awaited(arrival))) = self.awaited.pop() else { return };
-        let mean_power = f_exp10(0.1 * arrival.level_db);
+        let mean_power = power_from_db(arrival.level_db);
         let mut sound =
             Sound { arrival, power: mean_power, gain: 1.0, chance: 1.0, standing: Standing::Missed };
         if let ArrivalKind::Packet { asleep, known, .. } = arrival.kind {
@@ -380,8 +380,8 @@ impl Ear {
         let sinr = power / (self.noise + self.overlaps.mean_interference(sound));
         let reception = Reception {
             path: arrival.path,
-            level_db: arrival.level_db + 10.0 * f_log10(gain),
-            sinr_db: 10.0 * f_log10(sinr),
+            level_db: arrival.level_db + db_from_power(gain),
+            sinr_db: db_from_power(sinr),
             doppler: arrival.doppler,
         };
         if standing == Standing::Followed

@@ -30,6 +30,7 @@ pub struct Sea {
     links: Vec<Vec<Option<Link>>>,
     /// How far the loudest modem matters, in metres.
     farthest_m: f64,
+    layers: Vec<Option<PhysicalLayer>>,
     paths: Vec<SoundPath>,
     listeners: Vec<Listener>,
     told: Vec<Told>,
@@ -157,10 +158,17 @@ impl Sea {
             },
             links,
             farthest_m,
+            layers,
             paths: paths(sea.bounces_max),
             listeners: vehicles.iter().map(listener).collect(),
             told: Vec::new(),
         }
+    }
+
+    /// Length of a packet of so many bytes from an AUV of this group, in nanoseconds.
+    pub fn packet_ns(&self, group: u16, bytes: u16) -> i64 {
+        let layer = self.layers.get(usize::from(group)).copied().flatten();
+        layer.map_or(0, |layer| (layer.packet_s(bytes) * 1e9).ceil() as i64)
     }
 
     /// How far away from an emission anyone may be who is touched by it, in metres.

@@ -1,11 +1,12 @@
 //! With which probability a packet is decoded while interference comes and goes.
 
-use pxfm::{f_exp, f_exp10, f_log1p};
+use pxfm::{f_exp, f_log1p};
 use shoal_bus::time::SimTime;
-use shoal_scenario::model::{Fading, FadingKind, FadingPer, Modulation, PhysicalLayer};
+use shoal_scenario::model::{self, FadingKind, FadingPer, PhysicalLayer};
 
 use super::Arrival;
-use crate::acoustics::modulation::bit_error_rate;
+use crate::acoustics::decibel::power_from_db;
+use crate::acoustics::modulation::{Fading, Modulation, bit_error_rate};
 
 /// More bits than the longest frame has.
 const MOST_BITS: f64 = (1 << 20) as f64;
@@ -25,7 +26,7 @@ pub(super) struct Stretch {
 #[derive(Clone, Debug)]
 pub(super) struct Decoder {
     modulation: Modulation,
-    fading: FadingKind,
+    fading: Fading,
     noise: f64,
     /// Eb/N0 = SINR · bandwidth / bit rate · coding gain.
     eb_n0_per_sinr: f64,
@@ -37,16 +38,21 @@ pub(super) struct Decoder {
 
 impl Decoder {
     /// The decoder of `physical` in noise of this power in its band.
-    pub(super) fn new(physical: &PhysicalLayer, fading: Fading, noise: f64) -> Self {
+    pub(super) fn new(physical: &PhysicalLayer, fading: model::Fading, noise: f64) -> Self {
         let eb_n0_per_sinr =
-            physical.bandwidth_hz / physical.bit_rate_bit_s * f_exp10(0.1 * physical.coding_gain_db);
-        let fading = match fading.per {
-            FadingPer::Bit => fading.kind,
+            physical.bandwidth_hz / physical.bit_rate_bit_s * power_from_db(physical.coding_gain_db);
+        let fading = match (fading.per, fading.kind) {
             // A whole packet's fading is in its level already.
-            FadingPer::Packet => FadingKind::Gaussian,
+            (FadingPer::Packet, _) | (_, FadingKind::Gaussian) => Fading::None,
+            (FadingPer::Bit, FadingKind::Rayleigh) => Fading::Rayleigh,
+            (FadingPer::Bit, FadingKind::Rician { k_db }) => Fading::Rician { k: power_from_db(k_db) },
+        };
+        let modulation = match physical.modulation {
+            model::Modulation::Bpsk => Modulation::Bpsk,
+            model::Modulation::Fsk => Modulation::Fsk,
         };
         let mut decoder = Self {
-            modulation: physical.modulation,
+            modulation,
             fading,
             noise,
             eb_n0_per_sinr,
@@ -98,15 +104,15 @@ impl Decoder {
 
     /// Bisection over the exponent; infinite where errors fade away too slowly, as in Rayleigh fading.
     fn search_certain_sinr(&self) -> f64 {
-        let is_certain = |sinr_db: f64| self.bit_error_rate(f_exp10(0.1 * sinr_db)) * MOST_BITS < NEGLIGIBLE;
+        let is_certain = |sinr_db: f64| self.bit_error_rate(power_from_db(sinr_db)) * MOST_BITS < NEGLIGIBLE;
         let (mut below_db, mut above_db) = (-100.0, 100.0);
         if !is_certain(above_db) {
             return f64::INFINITY;
         }
-        for _ in 0..24 {
+        for _ in 0..12 {
             let middle_db = 0.5 * (below_db + above_db);
             if is_certain(middle_db) { above_db = middle_db } else { below_db = middle_db }
         }
-        f_exp10(0.1 * above_db)
+        power_from_db(above_db)
     }
 }

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use pxfm::{f_cos, f_exp10, f_log};
+use pxfm::{f_cos, f_log};
 use shoal_scenario::model::{Fading, FadingKind, FadingPer};
 
+use crate::acoustics::decibel::power_from_db;
 use crate::draw::Draws;
 
 /// No gain is drawn below this (-150 dB), so that every level stays finite.
@@ -29,7 +30,7 @@ impl Gain {
             (FadingPer::Bit, _) | (_, FadingKind::Gaussian) => Self::Steady,
             (FadingPer::Packet, FadingKind::Rayleigh) => Self::Scattered { steady: 0.0, scattered: 1.0 },
             (FadingPer::Packet, FadingKind::Rician { k_db }) => {
-                let k = f_exp10(0.1 * k_db);
+                let k = power_from_db(k_db);
                 // K beyond what f64 holds is no fading.
                 match k.is_finite() {
                     true => Self::Scattered { steady: (k / (1.0 + k)).sqrt(), scattered: 1.0 / (1.0 + k) },
