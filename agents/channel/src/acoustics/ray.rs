@@ -38,9 +38,11 @@ mod route;
 mod solve;
 #[cfg(test)]
 mod tests;
+mod trace;
 
 use self::arc::Arc;
 use self::route::{Route, Stretch, Turn};
+pub use self::trace::Waypoint;
 use super::profile::{Level, Profile};
 pub use shoal_bus::traffic::{Boundary, SoundPath};
 
