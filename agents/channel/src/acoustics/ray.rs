@@ -45,6 +45,8 @@ use super::profile::{Level, Profile};
 
 /// Ranges and depths beyond this, in metres, are no place in a sea: no ray goes there.
 const FARTHEST_M: f64 = 1e8;
+/// Ranges and depths below this, in metres, are zero: their squares would be.
+const NEAREST_M: f64 = 1e-30;
 
 /// What sound bounces off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -156,7 +158,7 @@ struct Pair {
 
 impl WaterColumn {
     /// Water of a profile above a bottom. Depths may be any: points above the surface or below the bottom see the profile go
-    /// on there, and whichever is farther out, boundary or point, blocks their direct rays.
+    /// on there, and whichever is farther out, boundary or point, blocks their direct rays. A bottom at infinity is never met.
     pub fn new(profile: Profile, bottom_depth_m: f64) -> Self {
         let (surface, bottom) = (profile.level(0.0), profile.level(bottom_depth_m));
         Self { profile, bottom_depth_m, surface, bottom }
@@ -253,6 +255,9 @@ impl WaterColumn {
             crossings + count(upper_towards, Boundary::Bottom) + count(lower_towards, Boundary::Surface);
         let base =
             crossings + count(upper_towards, Boundary::Bottom) + count(lower_towards, Boundary::Bottom);
+        if base > 0.0 && !is_place(self.bottom_depth_m) {
+            return None;
+        }
         let stretches = [
             Stretch::new(&self.profile, &self.surface, &pair.upper, top),
             Stretch::new(&self.profile, &pair.upper, &pair.lower, middle),
@@ -266,10 +271,12 @@ impl WaterColumn {
     }
 
     fn pair(&self, from_depth_m: f64, to_depth_m: f64, range_m: f64) -> Option<Pair> {
-        let is_place = |number: f64| number.abs() <= FARTHEST_M;
         if !(is_place(from_depth_m) && is_place(to_depth_m) && is_place(range_m) && range_m >= 0.0) {
             return None;
         }
+        let visible = |number: f64| if number.abs() < NEAREST_M { 0.0 } else { number };
+        let (from_depth_m, to_depth_m) = (visible(from_depth_m), visible(to_depth_m));
+        let range_m = visible(range_m);
         let goes_down = from_depth_m <= to_depth_m;
         let (upper_m, lower_m) =
             if goes_down { (from_depth_m, to_depth_m) } else { (to_depth_m, from_depth_m) };
@@ -427,6 +434,10 @@ impl Pair {
         };
         Ray { travel_s, length_m, slowness_s_m, departure, arrival }
     }
+}
+
+fn is_place(number: f64) -> bool {
+    number.abs() <= FARTHEST_M
 }
 
 /// Tangent of the grazing angle where the speed of sound is `slow_m_s` of a ray that turns where it is `fast_m_s`.
