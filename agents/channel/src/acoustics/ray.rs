@@ -41,6 +41,7 @@ mod tests;
 
 use self::arc::Arc;
 use self::route::{Route, Stretch, Turn};
+use self::solve::Found;
 use super::profile::{Level, Profile};
 
 /// Ranges and depths beyond this, in metres, are no place in a sea: no ray goes there.
@@ -263,11 +264,12 @@ impl WaterColumn {
             Stretch::new(&self.profile, &pair.upper, &pair.lower, middle),
             Stretch::new(&self.profile, &pair.lower, &self.bottom, base),
         ];
-        let route = Route::along(stretches);
-        let w = solve::crossing(&route, pair.range_m, guess.map(|ray| route.tangent(ray.slowness_s_m)))?;
+        let (route, steep) = Route::along(stretches);
+        let guess = guess.map(|ray| route.tangent(ray.slowness_s_m));
+        let found = solve::crossing(&route, steep, pair.range_m, guess)?;
         let down = |towards| if towards == Boundary::Bottom { 1.0 } else { -1.0 };
         // Seen from the upper point, sound comes to the lower one from where that one's leg goes.
-        Some(pair.ray(&route, w, down(upper_towards), -down(lower_towards)))
+        Some(pair.ray(&route, found, down(upper_towards), -down(lower_towards)))
     }
 
     fn pair(&self, from_depth_m: f64, to_depth_m: f64, range_m: f64) -> Option<Pair> {
@@ -313,55 +315,56 @@ impl WaterColumn {
 
     /// The ray between two points of different layers that keeps going down or up.
     fn across_layers(&self, pair: &Pair, guess: Option<&Ray>) -> Option<Ray> {
-        let route = Route::along([Stretch::new(&self.profile, &pair.upper, &pair.lower, 1.0)]);
+        let (route, steep) = Route::along([Stretch::new(&self.profile, &pair.upper, &pair.lower, 1.0)]);
         let guess = guess.filter(|ray| ray.keeps_going()).map(|ray| route.tangent(ray.slowness_s_m));
-        let w = solve::crossing(&route, pair.range_m, guess)?;
-        Some(pair.ray(&route, w, 1.0, 1.0))
+        let found = solve::crossing(&route, steep, pair.range_m, guess)?;
+        Some(pair.ray(&route, found, 1.0, 1.0))
     }
 
     /// Looks for faster rays that turn once, between the points and the boundary on one side.
     ///
     /// The layers are taken one after the other, away from the points. A ray can turn only where sound is faster than anywhere
-    /// before; how flat it then is at the least bounds how far it comes at the least.
+    /// before. Where a ray is known that keeps going, with the slowness `p`, only a ray that turns where sound is faster than `1 / p`
+    /// can be faster: a loop of slowness `q` takes at least `q` times its range, while the known ray gains at most `p` times that
+    /// when the loop's range is taken off its own.
     fn turned(&self, pair: &Pair, side: Boundary, guess: Option<&Ray>, fastest: &mut Option<Ray>) {
-        let near = if side == Boundary::Surface { &pair.upper } else { &pair.lower };
-        let limit_m = match side {
-            Boundary::Surface => near.depth_m.min(0.0),
-            Boundary::Bottom => near.depth_m.max(self.bottom_depth_m),
+        let (near, limit_m, downs) = match side {
+            Boundary::Surface => (&pair.upper, pair.upper.depth_m.min(0.0), (-1.0, 1.0)),
+            Boundary::Bottom => (&pair.lower, pair.lower.depth_m.max(self.bottom_depth_m), (1.0, -1.0)),
         };
-        let (slowest_m_s, fastest_m_s) = self.profile.extremes_m_s();
-        let flattest = grazing_tangent(slowest_m_s, fastest_m_s);
+        let (_, fastest_m_s) = self.profile.extremes_m_s();
+        let known = fastest.filter(Ray::keeps_going);
+        if known.is_some_and(|ray| ray.slowness_s_m * fastest_m_s < 1.0) {
+            return;
+        }
+        let least_m_s = known.map_or(0.0, |ray| 1.0 / ray.slowness_s_m);
         let apart_m = pair.lower.depth_m - pair.upper.depth_m;
         let (mut slowest_m_s, mut record_m_s) =
             self.profile.speed_bounds_m_s(pair.upper.depth_m, pair.lower.depth_m);
         let mut entry = *near;
         while entry.depth_m != limit_m && record_m_s < fastest_m_s {
-            let crossed_m = apart_m + 2.0 * (entry.depth_m - near.depth_m).abs();
-            if crossed_m > pair.range_m * flattest {
-                return;
-            }
             let layer = if side == Boundary::Surface { entry.layer_above } else { entry.layer_below };
             let Some(exit) = self.layer_end(layer, side, limit_m) else { return };
             let is_done = pair.lower.layer_above <= layer && layer <= pair.upper.layer_below;
-            if exit.speed_m_s > record_m_s
-                && !is_done
-                && crossed_m <= pair.range_m * grazing_tangent(slowest_m_s, exit.speed_m_s)
-            {
-                let between = Stretch::new(&self.profile, &pair.upper, &pair.lower, 1.0);
-                let beyond = match side {
-                    Boundary::Surface => Stretch::new(&self.profile, &entry, near, 2.0),
-                    Boundary::Bottom => Stretch::new(&self.profile, near, &entry, 2.0),
-                };
-                let gradient_1_s = self.profile.gradient_1_s(layer).abs();
-                let turn = Turn { entry_m_s: entry.speed_m_s, gradient_1_s };
-                let route = Route::turning([between, beyond], turn, record_m_s);
-                let most = grazing_tangent(record_m_s, exit.speed_m_s);
-                let (upper_down, lower_down) =
-                    if side == Boundary::Surface { (-1.0, 1.0) } else { (1.0, -1.0) };
-                let guess = guess.map_or(f64::NAN, |ray| route.tangent(ray.slowness_s_m));
-                solve::turning(&route, most, pair.range_m, guess, &mut |w| {
-                    faster(fastest, Some(pair.ray(&route, w, upper_down, lower_down)));
-                });
+            if exit.speed_m_s > record_m_s.max(least_m_s) && !is_done {
+                // Nowhere is the ray steeper than where sound is slowest, so it comes this far at the least.
+                let crossed_m = apart_m + 2.0 * (entry.depth_m - near.depth_m).abs();
+                if crossed_m <= pair.range_m * grazing_tangent(slowest_m_s, exit.speed_m_s) {
+                    let between = Stretch::new(&self.profile, &pair.upper, &pair.lower, 1.0);
+                    let beyond = match side {
+                        Boundary::Surface => Stretch::new(&self.profile, &entry, near, 2.0),
+                        Boundary::Bottom => Stretch::new(&self.profile, near, &entry, 2.0),
+                    };
+                    let gradient_1_s = self.profile.gradient_1_s(layer).abs();
+                    let turn = Turn { entry_m_s: entry.speed_m_s, gradient_1_s };
+                    let route = Route::turning([between, beyond], turn, record_m_s);
+                    let least = grazing_tangent(record_m_s, least_m_s.max(record_m_s));
+                    let most = grazing_tangent(record_m_s, exit.speed_m_s);
+                    let guess = guess.map_or(f64::NAN, |ray| route.tangent(ray.slowness_s_m));
+                    solve::turning(&route, (least, most), pair.range_m, guess, &mut |found| {
+                        faster(fastest, Some(pair.ray(&route, found, downs.0, downs.1)));
+                    });
+                }
             }
             record_m_s = record_m_s.max(exit.speed_m_s);
             slowest_m_s = slowest_m_s.min(exit.speed_m_s);
@@ -404,16 +407,10 @@ impl Pair {
 
     /// The ray of a route that has been found; `upper_down` and `lower_down` are 1 where the ray from the upper to the lower
     /// point goes down and -1 where it goes up.
-    fn ray<const N: usize>(&self, route: &Route<N>, w: f64, upper_down: f64, lower_down: f64) -> Ray {
-        let traced = route.trace(w);
-        let slowness_s_m = route.slowness_s_m(w);
-        let short_m = self.range_m - traced.range_m;
-        // The ray misses by a hair. Its travel time changes by its slowness per metre of range, so that the error of what is
-        // stated goes as the square of the miss.
-        let travel_s = traced.travel_s + slowness_s_m * short_m;
-        let first = upper_down * route.sine(w, self.upper.speed_m_s);
-        let last = lower_down * route.sine(w, self.lower.speed_m_s);
-        self.oriented(travel_s, traced.length_m, slowness_s_m, first, last)
+    fn ray<const N: usize>(&self, route: &Route<N>, found: Found, upper_down: f64, lower_down: f64) -> Ray {
+        let first = upper_down * route.sine(found.w, self.upper.speed_m_s);
+        let last = lower_down * route.sine(found.w, self.lower.speed_m_s);
+        self.oriented(found.travel_s, found.length_m, route.slowness_s_m(found.w), first, last)
     }
 
     /// The ray from emitter to receiver, of a ray from the upper to the lower point with the downward sines at both.

@@ -295,7 +295,7 @@ proptest! {
         if let Some(ray) = water.direct(from_m, to_m, range_m, None) {
             let (depth_m, travel_s) = landed(&water, from_m, ray.departure, range_m);
             // A ray that all but touches a node goes on with a direction that no bit of its departure tells.
-            let touches = water.profile().nodes().iter().any(|node| (ray.slowness_s_m * node.speed_m_s - 1.0).abs() < 1e-9);
+            let touches = water.profile().nodes().iter().any(|node| (ray.slowness_s_m * node.speed_m_s - 1.0).abs() < 5e-6);
             if range_m > 1e-3 && ray.departure.cos > 1e-6 && !touches {
                 let miss_m = (depth_m - to_m).abs() * ray.arrival.cos;
                 prop_assert!(miss_m < 1e-3, "lands at {depth_m}, not {to_m}");
