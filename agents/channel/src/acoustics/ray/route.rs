@@ -180,46 +180,68 @@ impl<'a, const N: usize> Route<'a, N> {
         (range_m, slope_m)
     }
 
-    /// Bounds of the derivative of the range for all rays between `least` and `most`, and the least and greatest range.
+    /// What the ends of a stretch of tangents tell about all rays in between.
+    ///
+    /// Over `u = w²`, what the layers contribute is a falling convex function, which lies above its tangents, and what the turn
+    /// contributes is a growing concave one, which lies above its chord.
     pub fn bounds(&self, least: f64, most: f64) -> Bounds {
-        let sigma = |w: f64, speed_m_s: f64| (w * w + self.excess(speed_m_s)).sqrt();
-        let both = |speed_m_s: f64| (sigma(least, speed_m_s), sigma(most, speed_m_s));
-        let (mut longest, mut shortest) = (0.0, 0.0);
+        let scale = 1.0 / (self.speed_m_s * self.speed_m_s);
+        let (first_square, last_square) = (least * least, most * most);
+        let both = |speed_m_s: f64| {
+            let excess = (self.speed_m_s - speed_m_s) * (self.speed_m_s + speed_m_s) * scale;
+            ((first_square + excess).sqrt(), (last_square + excess).sqrt())
+        };
+        // Range and derivative with respect to u, negative, at both ends; and how fast the range may fall with w.
+        let (mut first, mut first_fall, mut last, mut last_fall) = (0.0, 0.0, 0.0, 0.0);
         let (mut steepest, mut mildest) = (0.0, 0.0);
         for stretch in self.passed() {
             let mut upper = stretch.top;
             let mut upper_sigma = both(upper.speed_m_s);
             stretch.descend(|lower, _| {
                 let lower_sigma = both(lower.speed_m_s);
-                let share =
-                    (upper.speed_m_s + lower.speed_m_s) * (lower.depth_m - upper.depth_m) * stretch.crossings;
-                let sums = (upper_sigma.0 + lower_sigma.0, upper_sigma.1 + lower_sigma.1);
                 let products = (upper_sigma.0 * lower_sigma.0, upper_sigma.1 * lower_sigma.1);
-                longest += share / sums.0;
-                shortest += share / sums.1;
-                mildest += share * least / (sums.1 * products.1);
-                // w <= σ bounds w / (σ σ') where a σ may vanish.
-                let flattest = (most / products.0).min(1.0 / upper_sigma.0.max(lower_sigma.0));
-                steepest += share / sums.0 * flattest;
+                let share =
+                    stretch.crossings * (upper.speed_m_s + lower.speed_m_s) * (lower.depth_m - upper.depth_m);
+                let first_share = share / ((upper_sigma.0 + lower_sigma.0) * products.0);
+                let last_share = share / ((upper_sigma.1 + lower_sigma.1) * products.1);
+                first += first_share * products.0;
+                last += last_share * products.1;
+                first_fall += first_share;
+                last_fall += last_share;
+                // w <= σ bounds w / σ where σ may vanish.
+                steepest += first_share * most.min(upper_sigma.0.min(lower_sigma.0));
+                // The derivative has one extreme, so it is least steep at an end.
+                mildest += (least * first_share).min(most * last_share);
                 (upper, upper_sigma) = (*lower, lower_sigma);
             });
         }
-        let v_m_s = self.speed_m_s;
-        let mut bounds = Bounds {
-            ends_m: (longest / v_m_s, shortest / v_m_s),
-            range_m: (shortest / v_m_s, longest / v_m_s),
-            slope_m: (-steepest / v_m_s, -mildest / v_m_s),
-        };
+        let over_speed = 1.0 / self.speed_m_s;
+        let (first_m, last_m) = (first * over_speed, last * over_speed);
+        let (first_fall_m, last_fall_m) = (0.5 * first_fall * over_speed, 0.5 * last_fall * over_speed);
+        let mut slopes_m = (-steepest * over_speed, -mildest * over_speed);
+        let (mut first_turn_m, mut last_turn_m) = (0.0, 0.0);
         if let Some(turn) = &self.turn {
-            let (diameter_m, entry) = (2.0 * v_m_s / turn.gradient_1_s, both(turn.entry_m_s));
-            bounds.ends_m.0 += diameter_m * entry.0;
-            bounds.ends_m.1 += diameter_m * entry.1;
-            bounds.range_m.0 += diameter_m * entry.0;
-            bounds.range_m.1 += diameter_m * entry.1;
-            bounds.slope_m.0 += diameter_m * least / entry.0;
-            bounds.slope_m.1 += diameter_m * most / entry.1;
+            let (diameter_m, entry) = (2.0 * self.speed_m_s / turn.gradient_1_s, both(turn.entry_m_s));
+            (first_turn_m, last_turn_m) = (diameter_m * entry.0, diameter_m * entry.1);
+            slopes_m.0 += diameter_m * least / entry.0;
+            slopes_m.1 += diameter_m * most / entry.1;
         }
-        bounds
+        let ends_m = (first_m + first_turn_m, last_m + last_turn_m);
+        // Where the tangents at both ends meet.
+        let width = last_square - first_square;
+        let meeting =
+            ((first_m - last_m - last_fall_m * width) / (first_fall_m - last_fall_m)).clamp(0.0, width);
+        let met_m = last_m
+            + last_fall_m * (width - meeting)
+            + first_turn_m
+            + (last_turn_m - first_turn_m) * meeting / width;
+        let fall_m = (slopes_m.0 * (most - least)).min(0.0);
+        let rise_m = (slopes_m.1 * (most - least)).max(0.0);
+        Bounds {
+            ends_m,
+            range_m: (ends_m.0.min(ends_m.1).min(met_m).max(ends_m.0 + fall_m), (ends_m.0 + rise_m).min(first_m + last_turn_m)),
+            slope_m: slopes_m,
+        }
     }
 
     /// Follows the ray with `w`, not zero.

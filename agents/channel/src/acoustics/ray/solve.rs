@@ -135,13 +135,8 @@ fn search<const N: usize>(
     found: &mut impl FnMut(Found),
 ) {
     let bounds = route.bounds(least, most);
-    let width = most - least;
-    let falls_to_m = bounds.ends_m.0 + (bounds.slope_m.0 * width).min(0.0);
-    let rises_to_m = bounds.ends_m.0 + (bounds.slope_m.1 * width).max(0.0);
     let tolerance_m = SAME_RANGE * range_m;
-    if range_m < falls_to_m.max(bounds.range_m.0) - tolerance_m
-        || range_m > rises_to_m.min(bounds.range_m.1) + tolerance_m
-    {
+    if range_m < bounds.range_m.0 - tolerance_m || range_m > bounds.range_m.1 + tolerance_m {
         return;
     }
     let is_monotone = bounds.slope_m.0 >= 0.0 || bounds.slope_m.1 <= 0.0;
