@@ -264,7 +264,7 @@ impl WaterColumn {
             Stretch::new(&self.profile, &pair.upper, &pair.lower, middle),
             Stretch::new(&self.profile, &pair.lower, &self.bottom, base),
         ];
-        let (route, steep) = Route::along(stretches);
+        let (route, steep) = Route::along(&stretches);
         let guess = guess.map(|ray| route.tangent(ray.slowness_s_m));
         let found = solve::crossing(&route, steep, pair.range_m, guess)?;
         let down = |towards| if towards == Boundary::Bottom { 1.0 } else { -1.0 };
@@ -315,7 +315,8 @@ impl WaterColumn {
 
     /// The ray between two points of different layers that keeps going down or up.
     fn across_layers(&self, pair: &Pair, guess: Option<&Ray>) -> Option<Ray> {
-        let (route, steep) = Route::along([Stretch::new(&self.profile, &pair.upper, &pair.lower, 1.0)]);
+        let stretch = [Stretch::new(&self.profile, &pair.upper, &pair.lower, 1.0)];
+        let (route, steep) = Route::along(&stretch);
         let guess = guess.filter(|ray| ray.keeps_going()).map(|ray| route.tangent(ray.slowness_s_m));
         let found = solve::crossing(&route, steep, pair.range_m, guess)?;
         Some(pair.ray(&route, found, 1.0, 1.0))
@@ -357,7 +358,8 @@ impl WaterColumn {
                     };
                     let gradient_1_s = self.profile.gradient_1_s(layer).abs();
                     let turn = Turn { entry_m_s: entry.speed_m_s, gradient_1_s };
-                    let route = Route::turning([between, beyond], turn, record_m_s);
+                    let stretches = [between, beyond];
+                    let route = Route::turning(&stretches, turn, record_m_s);
                     let least = grazing_tangent(record_m_s, least_m_s.max(record_m_s));
                     let most = grazing_tangent(record_m_s, exit.speed_m_s);
                     let guess = guess.map_or(f64::NAN, |ray| route.tangent(ray.slowness_s_m));
@@ -407,7 +409,7 @@ impl Pair {
 
     /// The ray of a route that has been found; `upper_down` and `lower_down` are 1 where the ray from the upper to the lower
     /// point goes down and -1 where it goes up.
-    fn ray<const N: usize>(&self, route: &Route<N>, found: Found, upper_down: f64, lower_down: f64) -> Ray {
+    fn ray(&self, route: &Route, found: Found, upper_down: f64, lower_down: f64) -> Ray {
         let first = upper_down * route.sine(found.w, self.upper.speed_m_s);
         let last = lower_down * route.sine(found.w, self.lower.speed_m_s);
         self.oriented(found.travel_s, found.length_m, route.slowness_s_m(found.w), first, last)

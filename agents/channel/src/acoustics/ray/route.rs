@@ -59,8 +59,8 @@ pub(super) struct Turn {
 
 /// All that a ray passes between emitter and receiver.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Route<'a, const N: usize> {
-    stretches: [Stretch<'a>; N],
+pub(super) struct Route<'a> {
+    stretches: &'a [Stretch<'a>],
     turn: Option<Turn>,
     /// V, in m/s.
     speed_m_s: f64,
@@ -83,10 +83,10 @@ pub(super) struct Steep {
     pub bend: f64,
 }
 
-impl<'a, const N: usize> Route<'a, N> {
+impl<'a> Route<'a> {
     /// The route through `stretches` without a turn in the water, and the range of its steep rays.
     #[inline]
-    pub fn along(stretches: [Stretch<'a>; N]) -> (Self, Steep) {
+    pub fn along(stretches: &'a [Stretch<'a>]) -> (Self, Steep) {
         let (mut speed_m_s, mut area, mut squares) = (0.0_f64, 0.0, 0.0);
         for stretch in stretches.iter().filter(|stretch| stretch.crossings > 0.0) {
             let mut upper = stretch.top;
@@ -105,7 +105,7 @@ impl<'a, const N: usize> Route<'a, N> {
     }
 
     /// The route through `stretches` to a turn and back; `speed_m_s` is the greatest speed before the turn.
-    pub fn turning(stretches: [Stretch<'a>; N], turn: Turn, speed_m_s: f64) -> Self {
+    pub fn turning(stretches: &'a [Stretch<'a>], turn: Turn, speed_m_s: f64) -> Self {
         Self { stretches, turn: Some(turn), speed_m_s }
     }
 
@@ -239,7 +239,10 @@ impl<'a, const N: usize> Route<'a, N> {
         let rise_m = (slopes_m.1 * (most - least)).max(0.0);
         Bounds {
             ends_m,
-            range_m: (ends_m.0.min(ends_m.1).min(met_m).max(ends_m.0 + fall_m), (ends_m.0 + rise_m).min(first_m + last_turn_m)),
+            range_m: (
+                ends_m.0.min(ends_m.1).min(met_m).max(ends_m.0 + fall_m),
+                (ends_m.0 + rise_m).min(first_m + last_turn_m),
+            ),
             slope_m: slopes_m,
         }
     }

@@ -31,12 +31,7 @@ pub(super) struct Found {
 /// even the grazing one does not.
 ///
 /// The inverse range is a nearly linear function of the tangent, exactly linear in uniform water: Newton's method runs on that.
-pub(super) fn crossing<const N: usize>(
-    route: &Route<N>,
-    steep: Steep,
-    range_m: f64,
-    guess: Option<f64>,
-) -> Option<Found> {
+pub(super) fn crossing(route: &Route, steep: Steep, range_m: f64, guess: Option<f64>) -> Option<Found> {
     let mut most = steep.reach_m / range_m;
     if most.is_nan() || most <= 0.0 {
         // Nothing to cross: only equal points are joined, and those are no business of this function.
@@ -90,7 +85,7 @@ pub(super) fn crossing<const N: usize>(
 
 /// The ray that comes `range_m` far, if the one with `w` all but does; otherwise a better `w`.
 #[inline]
-fn landed<const N: usize>(route: &Route<N>, range_m: f64, w: f64) -> Result<Found, f64> {
+fn landed(route: &Route, range_m: f64, w: f64) -> Result<Found, f64> {
     let traced = route.trace(w);
     let short_m = range_m - traced.range_m;
     let next = w + short_m * traced.range_m / (range_m * traced.slope_m);
@@ -108,15 +103,15 @@ fn landed<const N: usize>(route: &Route<N>, range_m: f64, w: f64) -> Result<Foun
 }
 
 /// The ray with `w`, which is as good as it gets.
-fn closest<const N: usize>(route: &Route<N>, range_m: f64, w: f64) -> Found {
+fn closest(route: &Route, range_m: f64, w: f64) -> Found {
     let traced = route.trace(w);
     let travel_s = traced.travel_s + route.slowness_s_m(w) * (range_m - traced.range_m);
     Found { w, travel_s, length_m: traced.length_m }
 }
 
 /// Calls `found` with all rays of a route with a turn that come `range_m` far, with tangents between two.
-pub(super) fn turning<const N: usize>(
-    route: &Route<N>,
+pub(super) fn turning(
+    route: &Route,
     (least, most): (f64, f64),
     range_m: f64,
     guess: f64,
@@ -126,8 +121,8 @@ pub(super) fn turning<const N: usize>(
 }
 
 /// Halves the stretch of tangents until the range is known to grow or to fall along it, or not to be reached.
-fn search<const N: usize>(
-    route: &Route<N>,
+fn search(
+    route: &Route,
     (least, most): (f64, f64),
     range_m: f64,
     guess: f64,
@@ -156,8 +151,8 @@ fn search<const N: usize>(
 }
 
 /// The ray between two tangents, given with what their rays come too far.
-fn between<const N: usize>(
-    route: &Route<N>,
+fn between(
+    route: &Route,
     ((mut least, first_m), (mut most, last_m)): ((f64, f64), (f64, f64)),
     range_m: f64,
     guess: f64,
