@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::acoustics::profile::Node;
+use crate::acoustics::profile::{Node, Profile};
 
 mod independent;
 
