@@ -128,6 +128,7 @@ mod tests {
             acceleration_m_s2: 1.0,
             current_m_s: none,
             current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
             disturbance_m_s: none,
         };
         Motion::new(&body, &ClockBounds { drift: 1e-4, offset_s: none[0], stamp_ns: 2 })
