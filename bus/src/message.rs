@@ -129,8 +129,14 @@ pub struct BodyBounds {
     pub speed_m_s: f64,
     /// Bound of `|dv/dt|` in m/s², turning included.
     pub acceleration_m_s2: f64,
-    /// The current, in m/s.
+    /// The current, wherever the body is, in m/s.
     pub current_m_s: BoundsBox,
+    /// How fast the current that the moving body meets changes, in m/s², per axis: at two moments `dt` true seconds apart its
+    /// components differ by at most `current_change_m_s2 * dt + current_step_m_s`. Zero where the current is uniform.
+    pub current_change_m_s2: [f64; 3],
+    /// The part of that change which may come at once, in m/s, per axis: the current that acts on a body is constant between
+    /// knots of true time and jumps at each to what it is at the body's place. Zero where the current is uniform.
+    pub current_step_m_s: [f64; 3],
     /// The state noise of seed 001, equation (5.1), in m/s, with the rounding of the simulator's integrator inside.
     pub disturbance_m_s: BoundsBox,
 }
@@ -157,8 +163,8 @@ pub struct Orders {
     pub estimator: Estimator,
     /// How it steers.
     pub controller: Controller,
-    /// When it pings; `None` for a silent AUV.
-    pub ping: Option<PingSchedule>,
+    /// When it pings.
+    pub access: MediumAccess,
     /// The part of the water it must not leave, in metres.
     pub area_m: BoundsBox,
     /// A promise to break, so that the channel's check can be seen to catch it.
@@ -170,18 +176,59 @@ pub struct Orders {
 pub enum Estimator {
     /// The state tube: guaranteed, contracted by every measurement, `horizon_ns` of it remembered.
     Tube {
-        /// Local nanoseconds of the past that are kept.
+        /// Local nanoseconds of the past that are kept. What is told later than that is ignored, so no packet may take longer.
         horizon_ns: i64,
     },
 }
 
-/// When an AUV pings, in its local time: at `first + k * period_ns`.
+/// When an AUV pings. Local times and local nanoseconds, unless said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PingSchedule {
-    /// Local time of the first ping.
-    pub first: LocalTime,
-    /// Local nanoseconds between pings.
-    pub period_ns: i64,
+pub enum MediumAccess {
+    /// Never.
+    Silent,
+    /// At `first + k * period_ns`.
+    Periodic {
+        /// Local time of the first ping.
+        first: LocalTime,
+        /// Local nanoseconds between pings.
+        period_ns: i64,
+    },
+    /// Pure ALOHA: gaps are drawn from the exponential distribution.
+    Aloha {
+        /// No ping before this.
+        first: LocalTime,
+        /// Mean of the gaps.
+        mean_period_ns: i64,
+        /// What the AUV's own draws begin with.
+        entropy: u64,
+    },
+    /// In one slot of true time of each frame, kept by the own clock: the whole packet, and its sound up to the guard range, stay
+    /// inside the slot wherever in its interval the clock's offset is; where they do not fit, the AUV keeps silent.
+    Slotted {
+        /// Length of a slot, in nanoseconds of true time.
+        slot_ns: i64,
+        /// Slots of a frame, which begins at true time zero and repeats.
+        slots: u32,
+        /// The own slot.
+        slot: u32,
+        /// Length of a packet, in nanoseconds of true time.
+        packet_ns: i64,
+        /// Sound needs so long to the guard range, in nanoseconds of true time.
+        propagation_ns: i64,
+    },
+    /// Listen before talk: as periodic, but the modem holds a ping back when it hears something, and it is tried again later.
+    Csma {
+        /// Local time of the first ping.
+        first: LocalTime,
+        /// Local nanoseconds between pings.
+        period_ns: i64,
+        /// The medium must have been quiet for so long.
+        listen_ns: i64,
+        /// Mean of the exponential gap before a ping that was held back is tried again.
+        backoff_ns: i64,
+        /// What the AUV's own draws begin with.
+        entropy: u64,
+    },
 }
 
 /// How an AUV steers.
@@ -294,6 +341,11 @@ pub enum Sense {
         /// Along the nose, in m/s.
         speed_m_s: Measured,
     },
+    /// Doppler velocity log: velocity over ground in the axes of the body, forward, to port, and up.
+    Dvl {
+        /// In m/s.
+        velocity_m_s: [Measured; 3],
+    },
     /// Pressure: depth = -z.
     Depth {
         /// In metres, positive down.
@@ -306,11 +358,14 @@ pub enum Sense {
         /// True time, in seconds.
         time_s: Bounds,
     },
-    /// A ping heard; the event's stamp is the arrival, within the modem's stated timestamp error.
+    /// A ping heard; the event's stamp is the arrival of its beginning, within the modem's stated timestamp error. A packet takes
+    /// time, so this is told at the first tick after its end: the stamp may lie before the tick before.
     Heard {
         /// The bytes as the modem received them.
         frame: Frame,
     },
+    /// The modem heard others at the stamp, so the ping that was booked for it was held back.
+    Held,
 }
 
 /// What an AUV answers to one [`Sensed`].
@@ -338,6 +393,8 @@ pub struct Setpoint {
 pub struct PlannedPing {
     /// Local time of the emission.
     pub at: LocalTime,
+    /// The modem holds the ping back when it heard something within so many local nanoseconds before; zero to emit anyway.
+    pub listen_ns: i64,
     /// The bytes to emit: the AUV's prediction for that time.
     pub frame: Frame,
 }

@@ -1,18 +1,18 @@
-//! The ping as the modem sends it: 32 bytes, every interval rounded **outwards** to the few bits it gets.
+//! The ping as the modem sends it: 31 bytes, every interval rounded **outwards** to the few bits it gets.
 //!
 //! | bytes | field | unit |
 //! |---|---|---|
 //! | 0 | version (3 high bits), exponent `e` of the emission width (5 low bits) | |
 //! | 1-2 | sender, `u16` | |
-//! | 3-4 | sequence number modulo 65,536, `u16` | |
-//! | 5-10 | earliest true time of emission, `i48` | 2⁻²⁰ s |
-//! | 11 | width of the emission interval, `u8` | 2^(e-20) s |
-//! | 12 | exponent `p` of the position, `i8` | |
-//! | 13-21 | least x, y, z, three `i24` | 2^p m |
-//! | 22-24 | widths of x, y, z, three `u8` | 2^p m |
-//! | 25 | exponent `v` of the velocity, `i8` | |
-//! | 26-28 | least velocity, three `i8` | 2^v m/s |
-//! | 29-31 | widths of the velocity, three `u8` | 2^v m/s |
+//! | 3 | sequence number modulo 256, `u8` | |
+//! | 4-9 | earliest true time of emission, `i48` | 2⁻²⁰ s |
+//! | 10 | width of the emission interval, `u8` | 2^(e-20) s |
+//! | 11 | exponent `p` of the position, `i8` | |
+//! | 12-20 | least x, y, z, three `i24` | 2^p m |
+//! | 21-23 | widths of x, y, z, three `u8` | 2^p m |
+//! | 24 | exponent `v` of the velocity, `i8` | |
+//! | 25-27 | least velocity, three `i8` | 2^v m/s |
+//! | 28-30 | widths of the velocity, three `u8` | 2^v m/s |
 //!
 //! All integers are little-endian. Scaling by a power of two is exact in binary floating point, floor and ceiling are too,
 //! so the decoded intervals always hold the encoded ones.
@@ -26,9 +26,9 @@ use thiserror::Error;
 use crate::message::{AuvId, Bounds, BoundsBox};
 
 /// Length of an encoded ping.
-pub const FRAME_BYTES: usize = 32;
+pub const FRAME_BYTES: usize = 31;
 
-const VERSION: u8 = 1;
+const VERSION: u8 = 2;
 const TIME_UNIT_EXPONENT: i32 = -20;
 const EXPONENTS: std::ops::RangeInclusive<i32> = -60..=60;
 
@@ -105,8 +105,8 @@ impl<'de> Deserialize<'de> for Frame {
 pub struct Ping {
     /// Who emits.
     pub sender: AuvId,
-    /// Counts the emitter's pings, modulo 65,536.
-    pub sequence: u16,
+    /// Counts the emitter's pings, modulo 256.
+    pub sequence: u8,
     /// True time of the emission, in seconds.
     pub emission_s: Bounds,
     /// Position of the emitter at the emission, in metres.
@@ -160,7 +160,7 @@ impl Ping {
         let mut bytes = Vec::with_capacity(FRAME_BYTES);
         bytes.push(VERSION << 5 | widen.exponent);
         bytes.extend(sender.to_le_bytes());
-        bytes.extend(self.sequence.to_le_bytes());
+        bytes.push(self.sequence);
         bytes.extend(&emission.to_le_bytes()[..6]);
         bytes.push(widen.width);
         position.write(3, &mut bytes);
@@ -168,7 +168,7 @@ impl Ping {
         Frame::new(&bytes).ok_or(FrameError::Length(bytes.len()))
     }
 
-    /// Reads a frame. Any 32 bytes of the right version are some ping; whether it is true is another question.
+    /// Reads a frame. Any 31 bytes of the right version are some ping; whether it is true is another question.
     pub fn decode(frame: &Frame) -> Result<Self, FrameError> {
         let bytes: &[u8; FRAME_BYTES] =
             frame.bytes().try_into().map_err(|_| FrameError::Length(frame.bytes().len()))?;
@@ -176,14 +176,14 @@ impl Ping {
         if version != VERSION {
             return Err(FrameError::Version(version));
         }
-        let earliest = signed(&bytes[5..11]) as f64 * power_of_two(TIME_UNIT_EXPONENT);
-        let width = f64::from(bytes[11]) * power_of_two(TIME_UNIT_EXPONENT + i32::from(bytes[0] & 31));
+        let earliest = signed(&bytes[4..10]) as f64 * power_of_two(TIME_UNIT_EXPONENT);
+        let width = f64::from(bytes[10]) * power_of_two(TIME_UNIT_EXPONENT + i32::from(bytes[0] & 31));
         Ok(Self {
             sender: AuvId(u32::from(u16::from_le_bytes([bytes[1], bytes[2]]))),
-            sequence: u16::from_le_bytes([bytes[3], bytes[4]]),
+            sequence: bytes[3],
             emission_s: Bounds::new(earliest, earliest + width),
-            position_m: Block::read(&bytes[12..25], 3),
-            velocity_m_s: Block::read(&bytes[25..32], 1),
+            position_m: Block::read(&bytes[11..24], 3),
+            velocity_m_s: Block::read(&bytes[24..31], 1),
         })
     }
 }
@@ -292,7 +292,7 @@ mod tests {
     use super::*;
 
     fn ping(position_m: BoundsBox, velocity_m_s: BoundsBox, emission_s: Bounds) -> Ping {
-        Ping { sender: AuvId(513), sequence: 65_535, emission_s, position_m, velocity_m_s }
+        Ping { sender: AuvId(513), sequence: 255, emission_s, position_m, velocity_m_s }
     }
 
     fn holds(outer: &Bounds, inner: &Bounds) -> bool {
@@ -347,6 +347,6 @@ mod tests {
         crowd.sender = AuvId(70_000);
         assert_eq!(crowd.encode(), Err(FrameError::Sender(AuvId(70_000))));
         assert_eq!(Ping::decode(&Frame::new(&[32; 3]).unwrap()), Err(FrameError::Length(3)));
-        assert_eq!(Ping::decode(&Frame::new(&[0xff; 32]).unwrap()), Err(FrameError::Version(7)));
+        assert_eq!(Ping::decode(&Frame::new(&[0xff; 31]).unwrap()), Err(FrameError::Version(7)));
     }
 }

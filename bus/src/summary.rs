@@ -62,11 +62,24 @@ pub struct Summary {
 pub struct Containment {
     /// Enclosures compared with the truth.
     pub checks: u64,
-    /// Those that did not hold it.
+    /// Those that did not hold it, though nobody had told the AUV anything false.
     pub violations: u64,
     /// The first ten of them.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub first: Vec<ViolationLine>,
+    /// AUVs that lost the truth after they had heard something false: counted apart.
+    #[serde(default)]
+    pub misled: Misled,
+}
+
+/// What AUVs stated that had heard something false before: a ping that came the long way round (an outlier), or one whose
+/// payload did not hold the truth. No promise covers that.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Misled {
+    /// How many AUVs.
+    pub auvs: u32,
+    /// Enclosures of theirs that did not hold the truth, or emptied; not among [`Containment::violations`].
+    pub violations: u64,
 }
 
 /// One violation, for people and programs.
@@ -99,7 +112,8 @@ pub struct Widths {
     pub end_max: f64,
 }
 
-/// What became of the pings: `emitted * (auvs - 1) = heard + sum of lost (without late) + in_flight`.
+/// What became of the pings: `emitted * (auvs - 1) = heard + sum of lost + in_flight`, where lost is without
+/// `late`, `busy` and `unsent`, which never left.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Pings {
     /// Pings that left a modem.
@@ -108,6 +122,9 @@ pub struct Pings {
     pub heard: u64,
     /// Receptions that failed, by reason, and pings that never left (`late`).
     pub lost: Lost,
+    /// Heard the long way round, after bounces: their travel times break the bounds that the receivers are told.
+    #[serde(default)]
+    pub outliers: u64,
     /// Wavefronts that had not yet reached a receiver when the run ended.
     pub in_flight: u64,
 }
@@ -123,6 +140,21 @@ pub struct Lost {
     pub collision: u64,
     /// The receiver was emitting.
     pub half_duplex: u64,
+    /// No path led there, and bounces were too faint.
+    #[serde(default)]
+    pub shadow: u64,
+    /// The receiver's modem was not listening.
+    #[serde(default)]
+    pub asleep: u64,
+    /// Sent in a band or with a modulation that the receiver's modem does not know.
+    #[serde(default)]
+    pub band: u64,
+    /// Held back because the emitter's modem heard others: never left.
+    #[serde(default)]
+    pub busy: u64,
+    /// Booked while the emitter's modem was still emitting another: never left.
+    #[serde(default)]
+    pub unsent: u64,
     /// Booked for a moment that had passed: never left.
     pub late: u64,
     /// The receiver's process had ended.

@@ -24,8 +24,13 @@ impl Drop for Run {
 }
 
 fn traffic(window: u64, events: u32) -> Vec<Traffic> {
-    let fate = Fate::Lost { to: None, reason: LossReason::Late, range_m: 0.0 };
-    let event = |from| Traffic { at: SimTime::from_ns(window as i64), from: AuvId(from), sequence: 0, fate };
+    let fate = Fate::lost(None, LossReason::Late, 0.0);
+    let event = |from| Traffic {
+        at: SimTime::from_ns(window as i64),
+        from: AuvId(from),
+        sequence: 0,
+        fate: fate.clone(),
+    };
     (0..events).map(event).collect()
 }
 

@@ -3,12 +3,14 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::body::Catalogue;
+use crate::body::Catalogues;
+use crate::current::fastest_current_m_s;
 use crate::diagnostics::{Findings, ScenarioErrors};
 use crate::environment::{environment, norm};
-use crate::group::{GroupRead, group, group_names, name_is_good};
-use crate::model::{Environment, Noise, OnCrash, Scenario, WaterSabotage};
+use crate::group::{GroupRead, auvs_written, group, group_names, name_is_good};
+use crate::model::{Environment, Level, Noise, OnCrash, Scenario, SoundSpeed, WaterSabotage};
 use crate::reader::Table;
+use crate::sound_speed::slowest_m_s;
 use crate::time::ms_text;
 use crate::{AUVS_MAX, TABLES_MAX};
 
@@ -100,8 +102,7 @@ fn read(table: Table<'_>) -> Option<Scenario> {
 }
 
 fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupRead> {
-    let kinds = Catalogue::read(document);
-    let clocks = Catalogue::read(document);
+    let named = Catalogues::read(document);
     let listed: Option<&DeArray<'_>> = match document.get("group").map(Spanned::get_ref) {
         Some(DeValue::Array(listed)) if listed.len() > TABLES_MAX => {
             document.refuse(
@@ -146,7 +147,8 @@ fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupR
         }
     }
     let names = group_names(&tables);
-    tables.into_iter().map(|table| group(table, &kinds, &clocks, environment, &names)).collect()
+    let auvs = auvs_written(&tables);
+    tables.into_iter().map(|table| group(table, &named, environment, &names, auvs)).collect()
 }
 
 /// The number of AUVs, when all groups have one and the sum is not too large.
@@ -168,19 +170,31 @@ fn auv_count(table: &Table<'_>, groups: &[GroupRead]) -> Option<u32> {
 fn sound_outruns_bodies(table: &Table<'_>, environment: Option<&Environment>, groups: &[GroupRead]) {
     let Some(environment) = environment else { return };
     let fastest = groups.iter().filter_map(|read| read.fastest_m_s).fold(0.0, f64::max);
-    let body_m_s = fastest + norm(environment.current_m_s) + norm(environment.current_error_m_s);
-    let sound_m_s = environment.sound_speed_m_s - environment.sound_speed_error_m_s;
+    let body_m_s = fastest + fastest_current_m_s(environment) + norm(environment.current_error_m_s);
+    let profile = match &environment.level {
+        Level::Sea(sea) if sea.sound_speed != SoundSpeed::Uniform => Some(&sea.sound_speed),
+        _ => None,
+    };
+    let uniform_m_s = environment.sound_speed_m_s;
+    let slowest_m_s = profile.map_or(uniform_m_s, |profile| slowest_m_s(profile, uniform_m_s));
+    let sound_m_s = slowest_m_s - environment.sound_speed_error_m_s;
     if sound_m_s < SOUND_OVER_BODY * body_m_s {
-        let inside = table.table("environment", "[environment]");
-        let span = inside.map_or(table.header(), |inside| inside.span("sound_speed_m_s"));
+        let said = table.table("environment", "[environment]").and_then(|environment| match profile {
+            Some(_) => Some(environment.table("sea", "[environment.sea]")?.span("sound_speed")),
+            None => Some(environment.span("sound_speed_m_s")),
+        });
+        let least_m_s = (SOUND_OVER_BODY * body_m_s).ceil();
         table.findings.add(
-            span,
+            said.unwrap_or(table.header()),
             format!(
                 "sound at {sound_m_s} m/s is slower than twice the fastest body, {body_m_s:.3} m/s with current and \
                  disturbance"
             ),
             "too slow for these bodies",
-            format!("write {} or more, or slow the bodies down", (SOUND_OVER_BODY * body_m_s).ceil()),
+            match profile {
+                Some(_) => "slow the bodies, the current or the disturbance down".to_string(),
+                None => format!("write {least_m_s} or more, or slow the bodies down"),
+            },
         );
     }
 }

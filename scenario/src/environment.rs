@@ -1,10 +1,18 @@
 //! The table `[environment]`: the water and the sound in it.
 
+use crate::current::current_field;
 use crate::model::{Environment, Level, Region, Vec3};
 use crate::number::Rule;
 use crate::reader::Table;
+use crate::sea::{no_sea, sea, sound_of_a_sea};
 
-pub(crate) const LEVELS: &[(&str, Level)] = &[("ideal", Level::Ideal)];
+const LEVELS: &[(&str, LevelName)] = &[("ideal", LevelName::Ideal), ("sea", LevelName::Sea)];
+
+#[derive(Clone, Copy)]
+enum LevelName {
+    Ideal,
+    Sea,
+}
 
 pub(crate) fn environment(document: &Table<'_>) -> Option<Environment> {
     if !document.has("environment") {
@@ -18,11 +26,26 @@ pub(crate) fn environment(document: &Table<'_>) -> Option<Environment> {
         table.missing("area_m");
     }
     let area_m = table.region("area_m").filter(|area| has_volume(&table, area));
-    let level = table.choice("level", LEVELS, Level::Ideal);
-    let sound_speed_m_s = table.number("sound_speed_m_s", Some(1500.0), Rule::Positive);
+    let mut sound_speed_m_s = table.number("sound_speed_m_s", Some(1500.0), Rule::Positive);
+    let level = match table.choice("level", LEVELS, LevelName::Ideal) {
+        Some(LevelName::Ideal) => {
+            no_sea(&table);
+            Some(Level::Ideal)
+        }
+        Some(LevelName::Sea) => {
+            sound_speed_m_s = sound_speed_m_s.and_then(|speed| sound_of_a_sea(&table, speed));
+            sea(&table, area_m.as_ref()).map(Level::Sea)
+        }
+        // What the table says then means, nobody knows.
+        None => {
+            table.get("sea");
+            None
+        }
+    };
     let sound_speed_error_m_s = table.number("sound_speed_error_m_s", Some(0.0), Rule::NotNegative);
     let current_m_s = table.vec3("current_m_s", Some([0.0; 3]), Rule::Finite);
     let current_error_m_s = table.vec3("current_error_m_s", Some([0.0; 3]), Rule::NotNegative);
+    let current_field = current_field(&table);
     table.finish();
     Some(Environment {
         area_m: area_m?,
@@ -31,6 +54,7 @@ pub(crate) fn environment(document: &Table<'_>) -> Option<Environment> {
         sound_speed_error_m_s: sound_speed_error_m_s?,
         current_m_s: current_m_s?,
         current_error_m_s: current_error_m_s?,
+        current_field: current_field?,
     })
 }
 

@@ -1,7 +1,26 @@
 //! What a good value of each key looks like, for the fix that an error proposes.
 
-/// `key = value` with a sensible value.
-pub(crate) fn example(key: &str) -> String {
+/// `key = value` with a sensible value for the table of this name.
+pub(crate) fn example_in(table: &str, key: &str) -> String {
+    let value = match (table, key) {
+        ("[environment.current_field]", "name") => "\"shear\"",
+        ("[environment.current_field]", "centre_m") => "[500, 500]",
+        ("[environment.current_field]", "depth_m") => "50",
+        ("[environment.current_field]", "speed_m_s") => "0.3",
+        ("[environment.sea.bottom]", "sound_speed_m_s") => "1650",
+        ("[environment.sea.fading]", "kind") => "\"rician\"",
+        ("[group.modem]", "like") => "\"micromodem-psk\"",
+        ("[group.modem.access]", "name") => "\"aloha\"",
+        ("[group.modem.duty_cycle]", "period_s") => "10",
+        (table, "like") if table.contains("clock") => "\"tcxo\"",
+        (table, "like") if table.contains("sensors") => "\"ahrs-dvl\"",
+        _ => return example(key),
+    };
+    format!("{key} = {value}")
+}
+
+/// `key = value` with a sensible value wherever the key stands.
+fn example(key: &str) -> String {
     let value = match key {
         "name" => "\"reef\"",
         "summary" => "\"three AUVs at a reef\"",
@@ -18,6 +37,35 @@ pub(crate) fn example(key: &str) -> String {
         "sound_speed_m_s" => "1500",
         "sound_speed_error_m_s" => "1",
         "current_m_s" => "[0.2, 0, 0]",
+        "current_field" => {
+            "{ name = \"shear\", surface_m_s = [0.4, 0, 0], deep_m_s = [0, 0, 0], depth_m = 50 }"
+        }
+        "surface_m_s" => "[0.4, 0, 0]",
+        "deep_m_s" => "[0, 0, 0]",
+        "core_radius_m" => "100",
+        "sea" => "{ wind_m_s = 5 }",
+        "bottom_depth_m" => "100",
+        "sound_speed" => "\"summer-thermocline\"",
+        "depths_m" => "[0, 20, 60]",
+        "speeds_m_s" => "[1520, 1520, 1500]",
+        "temperatures_c" => "[22, 21, 13]",
+        "salinities_psu" => "[38, 38, 38.3]",
+        "formula" => "\"mackenzie\"",
+        "temperature_c" => "10",
+        "salinity_psu" => "35",
+        "ph" => "8",
+        "absorption" => "\"francois-garrison\"",
+        "spreading_exponent" => "1.5",
+        "shipping" => "0.5",
+        "wind_m_s" => "5",
+        "surface_loss_db" => "1",
+        "bottom" => "\"sand\"",
+        "density_kg_m3" => "1900",
+        "attenuation_db_wavelength" => "0.8",
+        "bounces_max" => "2",
+        "fading" => "\"rician\"",
+        "k_db" => "6",
+        "per" => "\"packet\"",
         "current_error_m_s" | "disturbance_m_s" => "[0.05, 0.05, 0.02]",
         "count" => "3",
         "kind" | "like" => "\"lauv\"",
@@ -38,15 +86,38 @@ pub(crate) fn example(key: &str) -> String {
         "heading_error_rad" | "pitch_error_rad" => "0.01",
         "speed_error_m_s" => "0.02",
         "depth_error_m" => "0.1",
+        "sensors" => "\"ahrs-dvl\"",
+        "dvl" => "{ altitude_max_m = 75, velocity_error_m_s = 0.02 }",
+        "altitude_max_m" => "75",
+        "velocity_error_m_s" => "0.02",
+        "gnss" => "{ depth_max_m = 1 }",
         "depth_max_m" => "1",
         "period_s" => "1",
         "position_error_m" => "[1, 1, 1]",
         "time_error_s" => "1e-6",
+        "modem" => "\"micromodem-psk\"",
         "range_m" => "500",
         "ping_period_s" => "1",
         "ping_phase_s" => "0.5",
         "timestamp_error_s" => "1e-5",
         "frame_bytes" => "64",
+        "addresses" => "16",
+        "source_level_db" => "185",
+        "centre_hz" => "25000",
+        "bandwidth_hz" => "5000",
+        "bit_rate_bit_s" => "500",
+        "preamble_s" => "0.5",
+        "modulation" => "\"bpsk\"",
+        "coding_gain_db" => "3",
+        "detection_threshold_db" => "0",
+        "capture_db" => "6",
+        "duty_cycle" => "{ period_s = 10, awake_s = 6 }",
+        "awake_s" => "6",
+        "access" => "{ name = \"slotted\", slot_s = 5 }",
+        "slot_s" | "backoff_s" => "5",
+        "slots" => "10",
+        "guard_range_m" => "1500",
+        "listen_s" => "0.5",
         "points_m" => "[[10, 0, -5], [0, 10, -5]]",
         "place" => "\"on-circle\"",
         "box_width_m" => "[5, 40]",

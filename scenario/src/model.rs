@@ -85,22 +85,203 @@ pub struct Environment {
     pub area_m: Region,
     /// Level of the acoustic channel.
     pub level: Level,
-    /// Speed of sound in m/s.
+    /// Speed of sound in m/s, where no profile says more.
     pub sound_speed_m_s: f64,
-    /// How far the stated speed of sound may be from the true one, in m/s.
+    /// How far the stated speed of sound may be from the true one, everywhere by the same amount, in m/s.
     pub sound_speed_error_m_s: f64,
-    /// True current in m/s.
+    /// True current in m/s; what [`current_field`](Self::current_field) says is added.
     pub current_m_s: Vec3,
     /// How far the stated current may be from the true one, per axis, in m/s.
     pub current_error_m_s: Vec3,
+    /// How the current differs from place to place.
+    pub current_field: CurrentField,
+}
+
+/// How the current differs from place to place: added to the uniform current.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CurrentField {
+    /// It does not.
+    Uniform,
+    /// Linear in depth between the surface and a depth, constant below.
+    Shear {
+        /// At z = 0, in m/s.
+        surface_m_s: Vec3,
+        /// At `depth_m` and below, in m/s.
+        deep_m_s: Vec3,
+        /// In metres, positive down.
+        depth_m: f64,
+    },
+    /// A Rankine vortex around a vertical axis: solid rotation in the core, falling as 1/r outside.
+    Vortex {
+        /// East and north of the axis, in metres.
+        centre_m: [f64; 2],
+        /// Radius of the core in metres.
+        core_radius_m: f64,
+        /// Speed at the rim of the core in m/s; negative turns clockwise.
+        speed_m_s: f64,
+    },
 }
 
 /// How real sound is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[expect(clippy::large_enum_variant, reason = "a scenario has one")]
+pub enum Level {
+    /// Constant speed, sharp range limit, no noise and no packets.
+    Ideal,
+    /// Sound as in water: refracted, absorbed, noisy, reflected, colliding.
+    Sea(Sea),
+}
+
+/// What sound meets at level `sea`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sea {
+    /// Speed of sound over depth.
+    pub sound_speed: SoundSpeed,
+    /// Depth of the sea floor in metres, positive down; flat.
+    pub bottom_depth_m: f64,
+    /// Temperature for absorption (and for the speed of sound where nothing else says it), in degrees C.
+    pub temperature_c: f64,
+    /// Salinity for absorption, in PSU.
+    pub salinity_psu: f64,
+    /// Acidity for absorption.
+    pub ph: f64,
+    /// Formula of absorption.
+    pub absorption: Absorption,
+    /// Exponent of spreading: transmission loss is `10 * exponent * lg(length)`; 1 cylindrical, 1.5 practical, 2 spherical.
+    pub spreading_exponent: f64,
+    /// Shipping activity of the Wenz curves, 0 to 1.
+    pub shipping: f64,
+    /// Wind speed in m/s: noise, and roughness of the surface.
+    pub wind_m_s: f64,
+    /// Loss at each bounce off the surface in dB; from the wind when `None`.
+    pub surface_loss_db: Option<f64>,
+    /// The sea floor.
+    pub bottom: Bottom,
+    /// Paths with so many bounces off surface and bottom, and fewer, are heard; 0 for the direct one alone.
+    pub bounces_max: u8,
+    /// How the level fluctuates.
+    pub fading: Fading,
+}
+
+/// Speed of sound over depth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SoundSpeed {
+    /// The same everywhere: the environment's `sound_speed_m_s`.
+    Uniform,
+    /// A profile by name.
+    Named(NamedProfile),
+    /// Speeds at depths, linear in between.
+    Speeds {
+        /// Increasing, in metres, positive down.
+        depths_m: Vec<f64>,
+        /// In m/s, one for each depth.
+        speeds_m_s: Vec<f64>,
+    },
+    /// Temperature and salinity at depths.
+    Water {
+        /// Increasing, in metres, positive down.
+        depths_m: Vec<f64>,
+        /// In degrees C, one for each depth.
+        temperatures_c: Vec<f64>,
+        /// In PSU, one for each depth.
+        salinities_psu: Vec<f64>,
+        /// How speed follows from them.
+        formula: SoundSpeedFormula,
+    },
+}
+
+/// Profiles of the speed of sound by name; what each is stands with the channel's acoustics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Level {
-    /// Constant speed, sharp range limit.
-    Ideal,
+pub enum NamedProfile {
+    /// A mixed surface layer above a thermocline.
+    MixedLayer,
+    /// Warm water on cold.
+    SummerThermocline,
+    /// Cold at the surface, faster with depth.
+    Arctic,
+    /// Munk's canonical deep-sea profile.
+    Munk,
+}
+
+/// Formulas for the speed of sound in sea water.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SoundSpeedFormula {
+    /// Mackenzie 1981.
+    Mackenzie,
+    /// Medwin 1975, to 1,000 m.
+    Medwin,
+    /// Chen and Millero 1977 (UNESCO) with the coefficients of Wong and Zhu 1995.
+    ChenMillero,
+    /// Del Grosso 1974.
+    DelGrosso,
+}
+
+/// Formulas for the absorption of sound in sea water.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Absorption {
+    /// Thorp, in the variant of Stojanovic.
+    ThorpStojanovic,
+    /// Thorp, in the variant of Jensen, Kuperman, Porter and Schmidt.
+    ThorpJkps,
+    /// Francois and Garrison 1982.
+    FrancoisGarrison,
+    /// Ainslie and McColm 1998.
+    AinslieMcColm,
+}
+
+/// A fluid sea floor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Bottom {
+    /// In kg/m³.
+    pub density_kg_m3: f64,
+    /// In m/s.
+    pub sound_speed_m_s: f64,
+    /// Attenuation in dB per wavelength.
+    pub attenuation_db_wavelength: f64,
+}
+
+/// How the level of a packet fluctuates around what distance makes of it.
+///
+/// A scenario that does not say it has Rician fading with a steady part of 6 dB, one draw for each packet: bounces off
+/// surface and bottom are paths of their own, so that what is left to fade on each path is the little that is scattered
+/// around it; and a packet is over before the waves that scatter it have changed much. Our own round figure.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Fading {
+    /// With which distribution.
+    pub kind: FadingKind,
+    /// How fast.
+    pub per: FadingPer,
+}
+
+/// Distributions of fading.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FadingKind {
+    /// None: additive Gaussian noise only.
+    Gaussian,
+    /// No steady part.
+    Rayleigh,
+    /// A steady part.
+    Rician {
+        /// Power of the steady part over that of the rest, in dB.
+        k_db: f64,
+    },
+}
+
+/// How fast fading is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FadingPer {
+    /// One draw for each packet and path: slow fading.
+    Packet,
+    /// Averaged over each bit: fast fading.
+    Bit,
 }
 
 /// A group of like AUVs.
@@ -171,8 +352,19 @@ pub struct Sensors {
     pub speed_error_m_s: f64,
     /// Depth error in metres; `None` without a pressure sensor.
     pub depth_error_m: Option<f64>,
+    /// Doppler velocity log; `None` without one.
+    pub dvl: Option<Dvl>,
     /// Satellite receiver; `None` without one.
     pub gnss: Option<Gnss>,
+}
+
+/// A Doppler velocity log: velocity over ground, while it sees the bottom.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Dvl {
+    /// Sees the bottom up to this altitude above it, in metres.
+    pub altitude_max_m: f64,
+    /// Error per axis of the body, in m/s.
+    pub velocity_error_m_s: f64,
 }
 
 /// A satellite receiver.
@@ -191,16 +383,102 @@ pub struct Gnss {
 /// The acoustic modem.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Modem {
-    /// Others hear it up to this range, in metres.
+    /// Name of the one of [`presets::MODEMS`](crate::presets::MODEMS) that it is, or is like.
+    pub name: &'static str,
+    /// Others hear it up to this range at level `ideal`, in metres.
     pub range_m: f64,
-    /// Local nanoseconds between pings; `None` for a silent AUV. Each AUV's phase is drawn unless `ping_phase_ns` says it.
-    pub ping_period_ns: Option<i64>,
-    /// Local time of the first ping; drawn when `None`.
-    pub ping_phase_ns: Option<i64>,
+    /// When it emits.
+    pub access: MediumAccess,
     /// Error of an arrival's timestamp in seconds.
     pub timestamp_error_s: f64,
     /// Bytes one ping may have.
     pub frame_bytes: u16,
+    /// What it does to sound at level `sea`; `None` for one that works at level `ideal` only.
+    pub physical: Option<PhysicalLayer>,
+    /// So many devices can be told apart; more are an extrapolation. `None` when nobody says.
+    pub addresses: Option<u32>,
+    /// When it listens; always when `None`.
+    pub duty_cycle: Option<DutyCycle>,
+}
+
+/// What a modem does to sound.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PhysicalLayer {
+    /// Source level in dB re 1 µPa at 1 m.
+    pub source_level_db: f64,
+    /// Centre of its band in Hz.
+    pub centre_hz: f64,
+    /// Width of its band in Hz.
+    pub bandwidth_hz: f64,
+    /// Bits of a packet per second, after coding.
+    pub bit_rate_bit_s: f64,
+    /// Length of what precedes the bits of a packet: detection signal, header, in seconds.
+    pub preamble_s: f64,
+    /// How bits become sound.
+    pub modulation: Modulation,
+    /// What coding saves, in dB of Eb/N0.
+    pub coding_gain_db: f64,
+    /// A packet is noticed from this ratio of signal to noise and interference in the band on, in dB.
+    pub detection_threshold_db: f64,
+    /// A packet that begins while another is being received takes over when it is louder by so many dB.
+    pub capture_db: f64,
+}
+
+/// How bits become sound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Modulation {
+    /// Coherent binary phase-shift keying.
+    Bpsk,
+    /// Noncoherent binary frequency-shift keying.
+    Fsk,
+}
+
+/// When a modem listens: for the first `awake_ns` of each `period_ns` of its local time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct DutyCycle {
+    /// Local nanoseconds.
+    pub period_ns: i64,
+    /// Local nanoseconds.
+    pub awake_ns: i64,
+}
+
+/// When a modem emits, as its AUV decides.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MediumAccess {
+    /// Never.
+    Silent,
+    /// Strictly periodic in local time (seed 001).
+    Periodic {
+        /// Local nanoseconds between pings.
+        period_ns: i64,
+        /// Local time of the first ping; drawn when `None`.
+        phase_ns: Option<i64>,
+    },
+    /// Pure ALOHA: at random, with this mean.
+    Aloha {
+        /// Mean of the local nanoseconds between pings.
+        mean_period_ns: i64,
+    },
+    /// A slot of true time for each AUV, kept by its own drifting clock.
+    Slotted {
+        /// Nanoseconds of true time.
+        slot_ns: i64,
+        /// How many slots make a frame; AUV i has slot i modulo this.
+        slots: u32,
+        /// Slots do not overlap for receivers up to this far away, in metres.
+        guard_range_m: f64,
+    },
+    /// Listen before talk.
+    Csma {
+        /// Local nanoseconds between pings.
+        period_ns: i64,
+        /// The medium must have been quiet for so many local nanoseconds.
+        listen_ns: i64,
+        /// Mean of the local nanoseconds after which a ping that was held back is tried again.
+        backoff_ns: i64,
+    },
 }
 
 /// Where the AUVs of a group begin. The true position is drawn inside the prior box, which is what the AUV is told.
@@ -317,6 +595,14 @@ pub enum WaterSabotage {
 }
 
 impl Scenario {
+    /// Depth of the sea floor in metres, positive down: at level `ideal`, the bottom of the area.
+    pub fn bottom_depth_m(&self) -> f64 {
+        match &self.environment.level {
+            Level::Ideal => -self.environment.area_m[2][0],
+            Level::Sea(sea) => sea.bottom_depth_m,
+        }
+    }
+
     /// Number of AUVs of all groups.
     pub fn auv_count(&self) -> u32 {
         self.groups.iter().map(|group| group.count).sum()

@@ -1,10 +1,10 @@
 //! Numbers, vectors and times in a table, with the rules they must obey.
 
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 use toml::de::DeValue;
 
-use crate::examples::example;
 use crate::model::{Region, Vec3};
 use crate::reader::{Table, Value};
 use crate::time::ns_of_decimal;
@@ -22,6 +22,12 @@ pub(crate) enum Rule {
     Within(f64, f64),
     /// From zero to a right angle.
     UpToRightAngle,
+}
+
+/// A number of a list, and where it stands.
+pub(crate) struct Placed {
+    pub(crate) number: f64,
+    pub(crate) span: Range<usize>,
 }
 
 /// No length, speed or error that makes sense is larger, and arithmetic beyond would eat into the error bounds.
@@ -85,7 +91,7 @@ impl<'t> Table<'t> {
                     value.span(),
                     format!("`{key}` cannot be {number}"),
                     format!("must be {wanted}"),
-                    format!("write for example `{}`", example(key)),
+                    format!("write for example `{}`", self.example(key)),
                 );
                 None
             }
@@ -119,7 +125,7 @@ impl<'t> Table<'t> {
                 key,
                 format!("`{key}` must be a whole number in its range"),
                 format!("must be {wanted}"),
-                format!("write for example `{}`", example(key)),
+                format!("write for example `{}`", self.example(key)),
             );
         }
         found
@@ -174,7 +180,10 @@ impl<'t> Table<'t> {
                 value.span(),
                 format!("`{key}` must be a whole number of nanoseconds"),
                 "not a whole number of nanoseconds below 292 years",
-                format!("write a time with at most {unit_exponent} decimals, such as `{}`", example(key)),
+                format!(
+                    "write a time with at most {unit_exponent} decimals, such as `{}`",
+                    self.example(key)
+                ),
             );
             return None;
         };
@@ -189,7 +198,7 @@ impl<'t> Table<'t> {
                 value.span(),
                 format!("`{key}` cannot be {text}"),
                 format!("must be {least}"),
-                format!("write for example `{}`", example(key)),
+                format!("write for example `{}`", self.example(key)),
             );
             return None;
         }
@@ -221,7 +230,7 @@ impl<'t> Table<'t> {
                     value.span(),
                     format!("`{key}` must be three numbers, not {found}"),
                     "expected three numbers: east, north, up",
-                    format!("write for example `{}`", example(key)),
+                    format!("write for example `{}`", self.example(key)),
                 );
                 return None;
             }
@@ -237,6 +246,21 @@ impl<'t> Table<'t> {
         good.then_some(vector)
     }
 
+    /// The list of numbers under `key`, each with its place.
+    pub(crate) fn numbers(&self, key: &'static str, rule: Rule) -> Option<Vec<Placed>> {
+        let Some(value) = self.get(key) else {
+            self.missing(key);
+            return None;
+        };
+        let DeValue::Array(parts) = value.get_ref() else {
+            self.wrong_type(key, value, "a list of numbers");
+            return None;
+        };
+        let read = |part| Some(Placed { number: self.number_in(key, part, rule)?, span: part.span() });
+        let numbers: Vec<_> = parts.iter().map(read).collect();
+        numbers.into_iter().collect()
+    }
+
     /// The points under `key`, at least one.
     pub(crate) fn points(&self, key: &'static str) -> Option<Vec<Vec3>> {
         let Some(value) = self.get(key) else {
@@ -250,7 +274,7 @@ impl<'t> Table<'t> {
                     key,
                     format!("`{key}` must be a list of one or more points"),
                     "expected a list of points",
-                    format!("write for example `{}`", example(key)),
+                    format!("write for example `{}`", self.example(key)),
                 );
                 return None;
             }
@@ -268,7 +292,7 @@ impl<'t> Table<'t> {
                     value.span(),
                     format!("`{key}` needs ranges of two numbers"),
                     "expected [least, greatest]",
-                    format!("write for example `{}`", example(key)),
+                    format!("write for example `{}`", self.example(key)),
                 );
                 return None;
             }
@@ -297,7 +321,7 @@ impl<'t> Table<'t> {
                     key,
                     format!("`{key}` must be three ranges"),
                     "expected a range for each of east, north and up",
-                    format!("write for example `{}`", example(key)),
+                    format!("write for example `{}`", self.example(key)),
                 );
                 return None;
             }

@@ -7,10 +7,16 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::diagnostics::Findings;
-use crate::examples::example;
+use crate::examples::example_in;
 
 /// A value with its place.
 pub(crate) type Value<'t> = Spanned<DeValue<'t>>;
+
+/// What may be named or spelled out.
+pub(crate) enum TextOrTable<'t> {
+    Text(&'t str),
+    Table(Table<'t>),
+}
 
 /// One table of the document. Every key that is asked for becomes known; [`Table::finish`] reports the others.
 pub(crate) struct Table<'t> {
@@ -77,9 +83,14 @@ impl<'t> Table<'t> {
         self.findings.add(self.span(key), cause, label, fix);
     }
 
+    /// What a good line for `key` looks like in this table.
+    pub(crate) fn example(&self, key: &str) -> String {
+        example_in(&self.name, key)
+    }
+
     /// Notes that `key` is missing; [`Table::finish`] reports it.
     pub(crate) fn missing(&self, key: &'static str) {
-        self.missing_as(key, &example(key));
+        self.missing_as(key, &self.example(key));
     }
 
     /// Notes that `key` is missing; `add` is what to write.
@@ -97,7 +108,7 @@ impl<'t> Table<'t> {
 
     /// Reports a value of another type than `wanted`, such as "a number".
     pub(crate) fn wrong_type(&self, key: &str, value: &Value<'_>, wanted: &str) {
-        self.wrong_type_as(key, value, wanted, &example(key));
+        self.wrong_type_as(key, value, wanted, &self.example(key));
     }
 
     /// Reports a value of another type than `wanted`; `write` is what to write instead.
@@ -118,6 +129,43 @@ impl<'t> Table<'t> {
             DeValue::Table(entries) => Some(Table::new(entries, value.span(), name, self.findings)),
             _ => {
                 self.wrong_type_as(key, value, "a table", name);
+                None
+            }
+        }
+    }
+
+    /// What has a name under `key`: the name alone, or a table with a `name` and more, which errors call `title`.
+    pub(crate) fn name_or_table(
+        &self,
+        key: &'static str,
+        title: &str,
+    ) -> Option<(&'t str, Option<Table<'t>>)> {
+        let value = self.get(key)?;
+        match value.get_ref() {
+            DeValue::String(name) => Some((name.as_ref(), None)),
+            DeValue::Table(entries) => {
+                let table = Table::new(entries, value.span(), title, self.findings);
+                let name = table.text("name", None);
+                table.report_missing();
+                Some((name?, Some(table)))
+            }
+            _ => {
+                self.wrong_type(key, value, "a name or a table with a name");
+                None
+            }
+        }
+    }
+
+    /// The table under `key`, which errors call `name`, or the text when there is only that.
+    pub(crate) fn text_or_table(&self, key: &'static str, name: &str) -> Option<TextOrTable<'t>> {
+        let value = self.get(key)?;
+        match value.get_ref() {
+            DeValue::String(text) => Some(TextOrTable::Text(text.as_ref())),
+            DeValue::Table(entries) => {
+                Some(TextOrTable::Table(Table::new(entries, value.span(), name, self.findings)))
+            }
+            _ => {
+                self.wrong_type(key, value, "a name or a table");
                 None
             }
         }
@@ -162,8 +210,17 @@ impl<'t> Table<'t> {
         if value.is_none() {
             return Some(default);
         }
-        let text = self.text(key, None)?;
-        let found = choices.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
+        self.chosen(key, self.text(key, None)?, choices)
+    }
+
+    /// What the text under `key` means; an error when it is none of the choices.
+    pub(crate) fn chosen<T: Clone>(
+        &self,
+        key: &'static str,
+        text: &str,
+        choices: &[(&'static str, T)],
+    ) -> Option<T> {
+        let found = choices.iter().find(|(name, _)| *name == text).map(|(_, choice)| choice.clone());
         if found.is_none() {
             self.unknown_name(self.span(key), key, text, choices.iter().map(|(name, _)| *name));
         }

@@ -2,7 +2,8 @@
 
 use toml::de::DeValue;
 
-use crate::environment::{contains, norm};
+use crate::current::fastest_current_m_s;
+use crate::environment::contains;
 use crate::model::{Controller, Environment, Estimator, Kind};
 use crate::number::Rule;
 use crate::reader::Table;
@@ -10,31 +11,13 @@ use crate::reader::Table;
 const HORIZON_DEFAULT_NS: i64 = 10_000_000_000;
 const FORGET_DEFAULT_NS: i64 = 5_000_000_000;
 
-/// A table with a name, or only the name: then the table is empty.
-fn name_of<'t>(group: &Table<'t>, key: &'static str) -> Option<(&'t str, Option<Table<'t>>)> {
-    let value = group.get(key)?;
-    match value.get_ref() {
-        DeValue::String(name) => Some((name.as_ref(), None)),
-        DeValue::Table(entries) => {
-            let table = Table::new(entries, value.span(), format!("[group.{key}]"), group.findings);
-            let name = table.text("name", None);
-            table.report_missing();
-            Some((name?, Some(table)))
-        }
-        _ => {
-            group.wrong_type(key, value, "a name or a table with a name");
-            None
-        }
-    }
-}
-
 pub(crate) fn estimator(group: &Table<'_>) -> Option<Estimator> {
     let default = Estimator::Tube { horizon_ns: HORIZON_DEFAULT_NS };
     if !group.has("estimator") {
         group.get("estimator");
         return Some(default);
     }
-    let (name, table) = name_of(group, "estimator")?;
+    let (name, table) = group.name_or_table("estimator", "[group.estimator]")?;
     if name != "tube" {
         let span = table.as_ref().map_or(group.span("estimator"), |table| table.span("name"));
         group.unknown_name(span, "estimator", name, ["tube"].into_iter());
@@ -60,7 +43,7 @@ pub(crate) fn controller(group: &Table<'_>, around: &Surroundings<'_>) -> Option
         group.get("controller");
         return Some(Controller::Hold);
     }
-    let (name, table) = name_of(group, "controller")?;
+    let (name, table) = group.name_or_table("controller", "[group.controller]")?;
     if !CONTROLLERS.contains(&name) {
         let span = table.as_ref().map_or(group.span("controller"), |table| table.span("name"));
         group.unknown_name(span, "controller", name, CONTROLLERS.into_iter());
@@ -152,7 +135,7 @@ fn circle_suits(
     rate: f64,
     heave_m: f64,
 ) {
-    let current_m_s = environment.map_or(0.0, |environment| norm(environment.current_m_s));
+    let current_m_s = environment.map_or(0.0, fastest_current_m_s);
     let speed_m_s = (radius_m * radius_m + heave_m * heave_m).sqrt() * rate.abs() + current_m_s;
     if speed_m_s > kind.speed_max_m_s {
         let mut needs = format!("radius {radius_m} m at {} rad/s", rate.abs());

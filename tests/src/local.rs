@@ -40,7 +40,7 @@ pub fn run_local_watched<M: Mind>(
     mut watch: impl FnMut(&Entry),
 ) -> Result<Summary, LocalRunError> {
     let window_ns = window_ns.unwrap_or(scenario.window_ns);
-    let mut channel = Channel::new(scenario);
+    let mut channel = Channel::new(scenario)?;
     let mut fleet = Local::new(be_born);
     fleet.born(&channel.born())?;
     while channel.now() < channel.end() {

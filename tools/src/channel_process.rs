@@ -65,7 +65,7 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
         Some(path) => Some(Recorder::create(path, &scenario, &order.text)?),
         None => None,
     };
-    let mut channel = Channel::new(&scenario);
+    let mut channel = Channel::new(&scenario).map_err(Failure::failed)?;
     let launched = match order.bus {
         Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
         Bus::Iceoryx2 => {

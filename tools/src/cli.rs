@@ -5,6 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::plot::Kind;
+use crate::set::Setting;
+use crate::sweep::{Axis, Seeds};
+
 /// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
 /// sensors, and proves at every step that none of them loses the truth.
 #[derive(Debug, Parser)]
@@ -23,14 +27,28 @@ pub enum Command {
     /// Run a scenario: one process per AUV, and one for the water
     #[command(
         after_help = "Examples:\n  shoal run six-circles\n  shoal run swarm-300 --record flock.mcap\n  \
-        shoal run my.toml --seed 7 --auvs 50 --bus local --json"
+        shoal run my.toml --seed 7 --auvs 50 --bus local --json\n  \
+        shoal run swarm-3 --set group.modem.range_m=300"
     )]
     Run(RunArgs),
+    /// Run a scenario for many seeds and values of its keys, and print one table
+    #[command(
+        after_help = "KEY names a value of the scenario file with dots, such as `environment.sound_speed_m_s`, or \
+        `group.0.count` for the first group and `group.count` for all.\n\nExamples:\n  shoal sweep six-circles --seeds 1..5\n  \
+        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv"
+    )]
+    Sweep(SweepArgs),
     /// Watch the pings of a live run on this host
     #[command(
         after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
     )]
     Tap(TapArgs),
+    /// Draw a figure (SVG) of what a record holds
+    #[command(
+        after_help = "Examples:\n  shoal run six-circles --record circles.mcap\n  shoal plot circles.mcap losses -o losses.svg\n  \
+        rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
+    )]
+    Plot(PlotArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {
@@ -87,6 +105,31 @@ pub struct RunArgs {
     /// Seed of every random draw
     #[arg(long, allow_negative_numbers = true)]
     pub seed: Option<u64>,
+    /// Change one value of the scenario; can be given many times
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    pub set: Vec<Setting>,
+    #[command(flatten)]
+    pub changes: Changes,
+    /// `max`, or simulated seconds per second of wall clock: 1 is real time
+    #[arg(long, default_value = "max", value_parser = parse_pace, allow_negative_numbers = true)]
+    pub pace: Pace,
+    /// Write a record (MCAP) of the run
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// zenoh endpoint to listen on and connect to, such as `tcp/127.0.0.1:7447`; a private socket unless given
+    #[arg(long, value_name = "ENDPOINT", value_parser = parse_endpoint)]
+    pub endpoint: Option<String>,
+    /// Print the summary as one JSON line
+    #[arg(long)]
+    pub json: bool,
+    /// No progress bar
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Changes to a scenario that have a flag of their own.
+#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
+pub struct Changes {
     /// Number of AUVs: scales all groups in proportion
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub auvs: Option<u32>,
@@ -109,21 +152,44 @@ pub struct RunArgs {
     /// How errors are drawn inside their bounds: `uniform` or `adversarial`
     #[arg(long)]
     pub noise: Option<String>,
-    /// `max`, or simulated seconds per second of wall clock: 1 is real time
-    #[arg(long, default_value = "max", value_parser = parse_pace, allow_negative_numbers = true)]
-    pub pace: Pace,
-    /// Write a record (MCAP) of the run
+}
+
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// A name from `shoal scenarios`, or the path of a scenario file
+    pub scenario: String,
+    /// Seeds of each combination, such as `1..20` (20 is one of them) or `3,5,8`; the scenario's own unless given
+    #[arg(long, value_parser = Seeds::parse)]
+    pub seeds: Option<Seeds>,
+    /// Values of one key of the scenario; given more than once, all combinations are run
+    #[arg(long = "set", value_name = "KEY=A,B,C", value_parser = Axis::parse)]
+    pub axes: Vec<Axis>,
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Write the table to this file too, as comma-separated values
     #[arg(long, value_name = "FILE")]
-    pub record: Option<PathBuf>,
-    /// zenoh endpoint to listen on and connect to, such as `tcp/127.0.0.1:7447`; a private socket unless given
-    #[arg(long, value_name = "ENDPOINT", value_parser = parse_endpoint)]
-    pub endpoint: Option<String>,
-    /// Print the summary as one JSON line
-    #[arg(long)]
-    pub json: bool,
+    pub csv: Option<PathBuf>,
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct PlotArgs {
+    /// The record, as `shoal run --record` leaves it
+    pub record: PathBuf,
+    /// What to draw
+    #[arg(value_enum)]
+    pub kind: Kind,
+    /// File to write; standard output unless given
+    #[arg(long, short, value_name = "FILE.svg")]
+    pub out: Option<PathBuf>,
+    /// For `rays`: depth of the source in metres; that of the first ping unless given
+    #[arg(long, value_name = "METRES")]
+    pub depth_m: Option<f64>,
+    /// For `rays`: how far to follow them, in metres; as far as pings went unless given
+    #[arg(long, value_name = "METRES")]
+    pub range_m: Option<f64>,
 }
 
 #[derive(Debug, Args)]

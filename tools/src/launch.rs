@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 use shoal_bus::summary::Summary;
 
-use crate::cli::{Bus, Pace};
+use crate::cli::{Bus, Changes, Pace};
 
 /// From the launcher to the channel, on its standard input. The input's end means that the launcher is gone.
 #[derive(Debug, Serialize, Deserialize)]
@@ -28,14 +28,8 @@ pub struct Order {
     pub text: String,
     /// `--seed`.
     pub seed: Option<u64>,
-    /// `--auvs`.
-    pub auvs: Option<u32>,
-    /// `--duration-s`.
-    pub duration_s: Option<f64>,
-    /// `--window-ms`.
-    pub window_ms: Option<f64>,
-    /// `--noise`.
-    pub noise: Option<String>,
+    /// `--auvs` and the like.
+    pub changes: Changes,
     /// Transport.
     pub bus: Bus,
     /// zenoh endpoint.

@@ -112,8 +112,8 @@ impl Observer for Tapped {
     fn window(&mut self, _: SimTime, entries: &[Entry]) {
         let Some(publisher) = self.publisher.as_mut() else { return };
         self.traffic.clear();
-        self.traffic.extend(entries.iter().filter_map(|entry| match entry.what {
-            What::Traffic(traffic) => Some(traffic),
+        self.traffic.extend(entries.iter().filter_map(|entry| match &entry.what {
+            What::Traffic(traffic) => Some(traffic.clone()),
             _ => None,
         }));
         if publisher.publish(&self.traffic).is_err() {

@@ -28,6 +28,9 @@ use crate::summary_text;
 pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let order = Order::read(args)?;
     let scenario = order.scenario()?;
+    for warning in scenario.warnings() {
+        eprintln!("warning: {warning}");
+    }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;
     let run = RunDir::create(&description(&scenario, &order)).while_doing("make a folder for the run")?;
@@ -66,7 +69,7 @@ fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
 }
 
 /// A flag that Ctrl-C and a polite kill set.
-fn interrupts() -> std::io::Result<Arc<AtomicBool>> {
+pub fn interrupts() -> std::io::Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
         signal_hook::flag::register(signal, Arc::clone(&flag))?;
@@ -140,7 +143,7 @@ fn in_this_program(
         Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
         None => None,
     };
-    let mut channel = Channel::new(scenario);
+    let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut fleet = Local::new(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
     channel.stillborn(losses);

@@ -2,9 +2,10 @@
 
 use shoal_scenario::{Overrides, Scenario, load, parse};
 
-use crate::cli::{Bus, RunArgs};
+use crate::cli::{Bus, Changes, RunArgs};
 use crate::failure::Failure;
 use crate::launch::Order;
+use crate::set::Setting;
 
 impl Order {
     /// Reads the scenario that the command line names.
@@ -13,14 +14,12 @@ impl Order {
             return Err(Failure::usage("--endpoint is for zenoh: add `--bus zenoh`, or leave it out"));
         }
         let (source_name, text) = load(&args.scenario).map_err(Failure::usage)?;
+        let (source_name, text) = with_settings(&source_name, &text, &args.set)?;
         Ok(Self {
             source_name,
             text,
             seed: args.seed,
-            auvs: args.auvs,
-            duration_s: args.duration_s,
-            window_ms: args.window_ms,
-            noise: args.noise.clone(),
+            changes: args.changes.clone(),
             bus: args.bus,
             endpoint: args.endpoint.clone(),
             pace: args.pace,
@@ -30,21 +29,41 @@ impl Order {
 
     /// The scenario, validated, with the command line's changes.
     pub fn scenario(&self) -> Result<Scenario, Failure> {
-        let scenario = parse(&self.source_name, &self.text)
-            .map_err(|errors| Failure::rendered(errors.render(crate::terminal::stderr_has_colour())))?;
-        let noise = match &self.noise {
-            Some(name) => {
-                Some(name.parse().map_err(|error| Failure::usage(format!("--noise {name}: {error}")))?)
-            }
-            None => None,
-        };
-        let overrides = Overrides {
-            seed: self.seed,
-            auvs: self.auvs,
-            duration_s: self.duration_s,
-            window_ms: self.window_ms,
-            noise,
-        };
-        overrides.apply(scenario).map_err(Failure::usage)
+        scenario(&self.source_name, &self.text, self.seed, &self.changes)
     }
+}
+
+/// The name and the text of a scenario after `--set`: errors will point into this text.
+pub fn with_settings(
+    source_name: &str,
+    text: &str,
+    settings: &[Setting],
+) -> Result<(String, String), Failure> {
+    let changed = Setting::apply(source_name, text, settings)?;
+    let name =
+        if settings.is_empty() { source_name.to_owned() } else { format!("{source_name} changed by --set") };
+    Ok((name, changed))
+}
+
+/// The scenario of this text, validated, with the changes that have a flag of their own.
+pub fn scenario(
+    source_name: &str,
+    text: &str,
+    seed: Option<u64>,
+    changes: &Changes,
+) -> Result<Scenario, Failure> {
+    let scenario = parse(source_name, text)
+        .map_err(|errors| Failure::rendered(errors.render(crate::terminal::stderr_has_colour())))?;
+    let noise = match &changes.noise {
+        Some(name) => Some(name.parse().map_err(|error| Failure::usage(format!("--noise {name}: {error}")))?),
+        None => None,
+    };
+    let overrides = Overrides {
+        seed,
+        auvs: changes.auvs,
+        duration_s: changes.duration_s,
+        window_ms: changes.window_ms,
+        noise,
+    };
+    overrides.apply(scenario).map_err(Failure::usage)
 }

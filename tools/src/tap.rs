@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::tap::{TapError, TapItem, TapSubscriber};
-use shoal_bus::traffic::{Fate, Traffic};
+use shoal_bus::traffic::{Fate, Reception, Traffic};
 
 use crate::cli::TapArgs;
 use crate::exit::Exit;
@@ -124,15 +124,40 @@ fn text_line(traffic: &Traffic) -> String {
         Fate::Emitted { bytes, box_width_m, beyond_range, .. } => format!(
             "{at_s:10.3} s  {from:>4} ->  all  emitted  #{sequence}  {bytes} B  box {box_width_m:.1} m  {beyond_range} beyond range"
         ),
-        Fate::Heard { to, range_m, travel_s, box_width_m } => format!(
-            "{at_s:10.3} s  {from:>4} -> {to:>4}  heard  {range_m:.1} m  {:.1} ms  box {box_width_m:.1} m",
-            travel_s * 1e3
+        Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => format!(
+            "{at_s:10.3} s  {from:>4} -> {to:>4}  heard  {range_m:.1} m  {:.1} ms{}  box {box_width_m:.1} m{}",
+            travel_s * 1e3,
+            reception.map_or(String::new(), |reception| format!("  {}", reception_text(&reception))),
+            if *outlier { "  outlier" } else { "" },
         ),
-        Fate::Lost { to, reason, range_m } => {
+        Fate::Lost { to, reason, range_m, reception, colliding } => {
             let to = to.map_or("-".to_owned(), |to| to.to_string());
-            format!("{at_s:10.3} s  {from:>4} -> {to:>4}  lost   {range_m:.1} m  {}", reason.name())
+            let reception =
+                reception.map_or(String::new(), |reception| format!("  {}", reception_text(&reception)));
+            let with = match colliding.as_slice() {
+                [] => String::new(),
+                others => {
+                    let names: Vec<String> = others.iter().map(ToString::to_string).collect();
+                    format!("  with {}", names.join(", "))
+                }
+            };
+            format!(
+                "{at_s:10.3} s  {from:>4} -> {to:>4}  lost   {range_m:.1} m  {}{reception}{with}",
+                reason.name()
+            )
         }
     }
+}
+
+/// Received level, SINR and path.
+fn reception_text(reception: &Reception) -> String {
+    let Reception { path, level_db, sinr_db, .. } = reception;
+    format!("{level_db:.0} dB  SINR {sinr_db:.0} dB  {path}")
+}
+
+fn reception_json(reception: &Reception) -> serde_json::Value {
+    let Reception { path, level_db, sinr_db, doppler } = reception;
+    json!({ "path": path.to_string(), "level_db": level_db, "sinr_db": sinr_db, "doppler": doppler })
 }
 
 fn json_line(traffic: &Traffic) -> String {
@@ -144,25 +169,30 @@ fn json_line(traffic: &Traffic) -> String {
         "sequence": sequence,
     });
     let facts = match fate {
-        Fate::Emitted { position_m, bytes, box_width_m, beyond_range } => json!({
+        Fate::Emitted { position_m, bytes, box_width_m, beyond_range, packet_s } => json!({
             "event": "emitted",
             "position_m": position_m,
             "bytes": bytes,
             "box_width_m": box_width_m,
             "beyond_range": beyond_range,
+            "packet_s": packet_s,
         }),
-        Fate::Heard { to, range_m, travel_s, box_width_m } => json!({
+        Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => json!({
             "event": "heard",
             "to": to,
             "range_m": range_m,
             "travel_s": travel_s,
             "box_width_m": box_width_m,
+            "reception": reception.as_ref().map(reception_json),
+            "outlier": outlier,
         }),
-        Fate::Lost { to, reason, range_m } => json!({
+        Fate::Lost { to, reason, range_m, reception, colliding } => json!({
             "event": "lost",
             "to": to,
             "reason": reason.name(),
             "range_m": range_m,
+            "reception": reception.as_ref().map(reception_json),
+            "colliding": colliding,
         }),
     };
     if let (Some(line), serde_json::Value::Object(facts)) = (line.as_object_mut(), facts) {

@@ -88,12 +88,12 @@ impl Mind for Auv {
             (steering.velocity_m_s - self.current_m_s).cap_magnitude(self.born.body.speed_m_s);
 
         let mut pings = Vec::new();
-        while let Some(at) = self.modem.due(sensed) {
-            let mut prediction = self.estimator.predict(at);
+        for booking in self.modem.due(sensed, &|at| self.estimator.predict(at).time_s) {
+            let mut prediction = self.estimator.predict(booking.at);
             if self.born.orders.sabotage == Some(Sabotage::LyingPing) {
                 prediction.position_m = sabotage::elsewhere(&prediction.position_m);
             }
-            pings.extend(self.modem.plan(at, &prediction));
+            pings.extend(self.modem.plan(booking, &prediction));
         }
         Acted {
             tick: sensed.tick,

@@ -10,10 +10,12 @@
 //! | `tube_estimator.rs` | the state tube, online |
 //! | `state.rs` | position and clock as one set, contracted by measurements |
 //! | `motion.rs` | how far the body can have moved |
+//! | `odometry.rs` | what it did from any remembered moment until now |
 //! | `history.rs` | the tube that is remembered |
 //! | `controller/` | hold, circle, waypoints, reynolds |
 //! | `neighbours.rs` | who is around |
-//! | `modem.rs` | when to ping and what to say |
+//! | `medium_access/` | when to ping |
+//! | `modem.rs` | what to say |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -21,9 +23,13 @@ mod bounds;
 pub mod controller;
 pub mod estimator;
 mod history;
+pub mod medium_access;
 pub mod modem;
 pub mod motion;
 pub mod neighbours;
+#[cfg(test)]
+mod newborn;
+pub mod odometry;
 mod sabotage;
 pub mod state;
 pub mod tube_estimator;

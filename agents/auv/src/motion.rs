@@ -230,6 +230,8 @@ mod tests {
             speed_m_s: 4.0,
             acceleration_m_s2: ACCELERATION_M_S2,
             current_m_s: [Bounds::new(0.2, 0.3), none[1], none[2]],
+            current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
             disturbance_m_s: [Bounds::new(-0.1, 0.1); 3],
         };
         let clock = ClockBounds { drift: DRIFT, offset_s: none[0], stamp_ns: 2 };

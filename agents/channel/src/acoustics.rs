@@ -10,8 +10,12 @@
 //! | `noise.rs` | ambient noise |
 //! | `modulation.rs` | bit and packet errors |
 //! | `doppler.rs` | stretch by motion |
+//! | `density.rs` | density of sea water |
+//! | `decibel.rs` | levels and power ratios |
 
 pub mod absorption;
+pub mod decibel;
+pub mod density;
 pub mod doppler;
 pub mod modulation;
 pub mod noise;

@@ -1,44 +1,22 @@
 //! From a scenario to the AUVs of a run: where each really is, and what it is told.
 
+mod access;
+mod bounds;
+
 use nalgebra::Vector3;
 use pxfm::f_sincos;
 use shoal_bus::message::{
-    AuvId, BodyBounds, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, ModemBounds,
-    Orders, PingSchedule, Sabotage, Wake,
+    AuvId, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, MediumAccess, Orders,
+    Sabotage, Wake,
 };
-use shoal_bus::time::{LocalTime, SimTime};
+use shoal_bus::time::SimTime;
 use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
 
 use crate::body::{Attitude, Body, Vec3};
 use crate::clock::{STAMP_NS, TrueClock};
 use crate::draw::{Draws, Purpose};
 use crate::sensors::{Sensors, rounding};
-use crate::sound::ARRIVAL_TOLERANCE_S;
-
-/// The id of draws that concern no vehicle.
-const WATER: AuvId = AuvId(u32::MAX);
-
-/// What the scenario states within bounds and the truth settles once for the whole run.
-#[derive(Clone, Copy, Debug)]
-pub struct Water {
-    /// True speed of sound in m/s.
-    pub sound_speed_m_s: f64,
-    /// True current in m/s.
-    pub current_m_s: Vec3,
-}
-
-impl Water {
-    /// The water of a run.
-    pub fn new(scenario: &Scenario) -> Self {
-        let mut draws = Draws::new(scenario.seed, Purpose::Water, WATER, scenario.noise);
-        let environment = &scenario.environment;
-        let sound_speed_m_s = environment.sound_speed_m_s + draws.error(environment.sound_speed_error_m_s);
-        let current_m_s = Vector3::from_fn(|axis, _| {
-            environment.current_m_s[axis] + draws.error(environment.current_error_m_s[axis])
-        });
-        Self { sound_speed_m_s, current_m_s }
-    }
-}
+use crate::water::Water;
 
 /// An AUV at true time zero.
 pub struct Newborn {
@@ -65,17 +43,21 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
     let birth = clock.read(SimTime::ZERO);
     let mut within = |period_ns: i64| 1 + (phase.unit() * (period_ns - 1) as f64) as i64;
     let first_tick = birth + within(group.control_period_ns);
-    let first_ping = group.modem.ping_period_ns.map(&mut within);
+    let first_ping_ns = access::drawn_within_ns(&group.modem.access).map(&mut within);
     let first_fix = birth + group.sensors.gnss.as_ref().map_or(0, |gnss| within(gnss.period_ns));
 
     let (position_m, attitude) = placed(group, index, &mut start);
     let prior_position_m = prior_box(group, &position_m, &mut start);
-    let body =
-        Body::new(&group.kind, water.current_m_s, scenario.knot_ns, position_m, attitude, (seed, auv, noise));
-    let ping = group.modem.ping_period_ns.zip(first_ping).map(|(period_ns, drawn_ns)| PingSchedule {
-        first: group.modem.ping_phase_ns.map_or(birth + drawn_ns, LocalTime::from_ns),
-        period_ns,
-    });
+    let body = Body::new(
+        &group.kind,
+        water.current.clone(),
+        scenario.knot_ns,
+        position_m,
+        attitude,
+        (seed, auv, noise),
+    );
+    let first_ping = birth + first_ping_ns.unwrap_or(0);
+    let access = access::orders(scenario, group, water, auv, first_ping, &mut phase);
     let offset_s = group.clock.offset_bound_s + 4.0 * STAMP_NS as f64 * 1e-9;
     let born = Born {
         auv,
@@ -89,14 +71,14 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         },
         birth,
         prior_position_m,
-        body: body_bounds(scenario, group),
-        modem: modem_bounds(scenario, group),
-        orders: orders(scenario, group, index, ping),
+        body: bounds::body(scenario, group),
+        modem: bounds::modem(scenario, group, water),
+        orders: orders(scenario, group, index, access),
     };
     Newborn {
         clock,
         body,
-        sensors: Sensors::new(&group.sensors, seed, auv, noise, first_fix),
+        sensors: Sensors::new(&group.sensors, scenario.bottom_depth_m(), (seed, auv, noise), first_fix),
         arrivals: Draws::new(seed, Purpose::Arrival, auv, noise),
         born,
     }
@@ -164,49 +146,12 @@ fn prior_box(group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
     })
 }
 
-fn body_bounds(scenario: &Scenario, group: &Group) -> BodyBounds {
-    let environment = &scenario.environment;
-    let around = |value: f64, error: f64| {
-        let error = error + rounding(value.abs() + error);
-        Bounds::new(value - error, value + error)
-    };
-    // Each knot rounds a position as large as the area.
-    let extent_m = environment.area_m.iter().flatten().fold(0.0_f64, |extent, side| extent.max(side.abs()));
-    let knots_per_s = 1e9 / scenario.knot_ns as f64;
-    let integrator_m_s = rounding(2.0 * extent_m * (1.0 + knots_per_s));
-    BodyBounds {
-        speed_m_s: group.kind.speed_max_m_s + rounding(group.kind.speed_max_m_s),
-        acceleration_m_s2: Body::acceleration_bound_m_s2(&group.kind),
-        current_m_s: std::array::from_fn(|axis| {
-            around(environment.current_m_s[axis], environment.current_error_m_s[axis])
-        }),
-        disturbance_m_s: group.kind.disturbance_m_s.map(|bound_m_s| around(0.0, bound_m_s + integrator_m_s)),
-    }
-}
-
-fn modem_bounds(scenario: &Scenario, group: &Group) -> ModemBounds {
-    let environment = &scenario.environment;
-    let error_m_s = environment.sound_speed_error_m_s + rounding(environment.sound_speed_m_s);
-    let farthest_m =
-        scenario.groups.iter().fold(0.0_f64, |farthest, group| farthest.max(group.modem.range_m));
-    ModemBounds {
-        range_m: group.modem.range_m,
-        hearing_range_m: farthest_m + rounding(farthest_m),
-        sound_speed_m_s: Bounds::new(
-            environment.sound_speed_m_s - error_m_s,
-            environment.sound_speed_m_s + error_m_s,
-        ),
-        timestamp_s: group.modem.timestamp_error_s + ARRIVAL_TOLERANCE_S,
-        frame_bytes: group.modem.frame_bytes,
-    }
-}
-
-fn orders(scenario: &Scenario, group: &Group, index: u32, ping: Option<PingSchedule>) -> Orders {
+fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) -> Orders {
     let model::Estimator::Tube { horizon_ns } = group.estimator;
     Orders {
         estimator: Estimator::Tube { horizon_ns },
         controller: controller(scenario, group, index),
-        ping,
+        access,
         area_m: scenario.environment.area_m.map(|[least, greatest]| Bounds::new(least, greatest)),
         sabotage: group.sabotage.map(|sabotage| match sabotage {
             AuvSabotage::HalvedClock => Sabotage::HalvedClock,

@@ -1,7 +1,8 @@
 //! A true body: kinematic, limited in speed, acceleration, turn rate and pitch, pushed by current and state noise.
 //!
 //! The velocity through the water is linear in time between knots (of fixed true times, split only where a setpoint takes
-//! effect), so the position is a parabola there: exact to evaluate, and the same whoever asks, and when.
+//! effect), so the position is a parabola there: exact to evaluate, and the same whoever asks, and when. From one knot to the
+//! next the current is that of the place where the body was at the knot, whatever setpoint takes effect in between.
 
 use std::collections::VecDeque;
 use std::f64::consts::PI;
@@ -12,6 +13,7 @@ use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_scenario::model::{Kind, Noise};
 
+use crate::current::Current;
 use crate::draw::{Draws, Purpose};
 
 /// Below this speed, in m/s, a velocity has no direction worth a name and the attitude is kept.
@@ -108,11 +110,14 @@ pub struct Pose {
 /// One AUV's body.
 pub struct Body {
     kind: Kind,
-    current_m_s: Vec3,
+    current: Current,
     knot_ns: i64,
     draws: Draws,
     drawn_knot: i64,
+    /// State noise from the last knot on.
     disturbance_m_s: Vec3,
+    /// Current at the last knot's place.
+    current_m_s: Vec3,
     goal: Attitude,
     /// Setpoints that are decided but not yet in effect, in order of time.
     setpoints: VecDeque<(SimTime, Vec3)>,
@@ -125,7 +130,7 @@ impl Body {
     /// A body at rest in its orders: it keeps `attitude` until the first setpoint takes effect.
     pub fn new(
         kind: &Kind,
-        current_m_s: Vec3,
+        current: impl Into<Current>,
         knot_ns: i64,
         position_m: Vec3,
         attitude: Attitude,
@@ -133,11 +138,12 @@ impl Body {
     ) -> Self {
         let mut body = Self {
             kind: kind.clone(),
-            current_m_s,
+            current: current.into(),
             knot_ns,
             draws: Draws::new(seed, Purpose::Disturbance, auv, noise),
             drawn_knot: -1,
             disturbance_m_s: Vec3::zeros(),
+            current_m_s: Vec3::zeros(),
             goal: attitude,
             setpoints: VecDeque::new(),
             segments: VecDeque::new(),
@@ -155,9 +161,9 @@ impl Body {
         (along * along + 2.0 * across * across).sqrt() * (1.0 + 1e-9) + 1e-9
     }
 
-    /// Bound of its speed over ground, in m/s.
-    pub fn ground_speed_bound_m_s(kind: &Kind, current_m_s: &Vec3) -> f64 {
-        kind.speed_max_m_s + current_m_s.norm() + Vec3::from(kind.disturbance_m_s).norm()
+    /// Bound of its speed over ground, in m/s, wherever the current takes it.
+    pub fn ground_speed_bound_m_s(kind: &Kind, current: &Current) -> f64 {
+        kind.speed_max_m_s + current.speed_bound_m_s() + Vec3::from(kind.disturbance_m_s).norm()
     }
 
     /// Shifts the truth by a metre east at the first knot from `at` on, unaccounted for: a sabotage.
@@ -209,6 +215,18 @@ impl Body {
         pose_at(self.segment_at(t), t)
     }
 
+    /// The position in metres at `t`, as in [`at`](Self::at), for less.
+    pub fn position_at(&self, t: SimTime) -> Vec3 {
+        let segment = self.segment_at(t);
+        segment.position_after(segment.elapsed_s(t))
+    }
+
+    /// The velocity over ground in m/s at `t`, as in [`at`](Self::at), for less.
+    pub fn ground_velocity_at(&self, t: SimTime) -> Vec3 {
+        let segment = self.segment_at(t);
+        segment.ground_velocity_m_s + segment.acceleration_m_s2 * segment.elapsed_s(t)
+    }
+
     /// The stretches that are remembered, in order.
     pub fn segments(&self) -> impl Iterator<Item = &Segment> {
         self.segments.iter()
@@ -227,9 +245,11 @@ impl Body {
             self.setpoints.pop_front();
         }
         let knot = start.ns().div_euclid(self.knot_ns);
+        // Every knot begins a stretch, so none is passed over and `start` is its time.
         while self.drawn_knot < knot {
             self.drawn_knot += 1;
             self.disturbance_m_s = Vec3::from(self.kind.disturbance_m_s).map(|bound| self.draws.error(bound));
+            self.current_m_s = self.current.at(&position_m);
         }
         let planned_end = SimTime::from_ns((knot + 1) * self.knot_ns);
         let seconds = (planned_end - start) as f64 * 1e-9;
@@ -304,83 +324,4 @@ fn wrapped(angle_rad: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn kind() -> Kind {
-        Kind {
-            speed_max_m_s: 2.0,
-            acceleration_max_m_s2: 0.5,
-            turn_rate_max_rad_s: 0.6,
-            pitch_max_rad: 0.7,
-            disturbance_m_s: [0.05; 3],
-            length_m: 1.0,
-        }
-    }
-
-    fn body(seed: u64) -> Body {
-        let attitude = Attitude { heading_rad: 0.3, pitch_rad: 0.0, speed_m_s: 1.0 };
-        let stream = (seed, AuvId(0), Noise::Uniform);
-        Body::new(&kind(), Vec3::new(0.1, 0.0, 0.0), 10_000_000, Vec3::zeros(), attitude, stream)
-    }
-
-    fn ns(ms: i64) -> SimTime {
-        SimTime::from_ns(ms * 1_000_000)
-    }
-
-    /// Steers along a fixed plan, integrating in windows of `window_ms`, and returns samples of the motion.
-    fn flown(window_ms: i64) -> Vec<Vec3> {
-        let plan = [
-            (137, [0.0, 1.5, 0.4]),
-            (1_003, [-2.0, -0.1, -3.0]),
-            (2_500, [0.0; 3]),
-            (3_111, [5.0, 5.0, 0.0]),
-        ];
-        let mut body = body(3);
-        let mut seen = Vec::new();
-        let (mut now, mut planned, mut sampled) = (0, 0, 0);
-        while now < 5_000 {
-            now = (now + window_ms).min(5_000);
-            // A setpoint is decided up to 90 ms before it takes effect.
-            while planned < plan.len() && plan[planned].0 < now + 90 {
-                body.steer(ns(plan[planned].0), Vec3::from(plan[planned].1));
-                planned += 1;
-            }
-            body.integrate(ns(now));
-            while sampled < now {
-                seen.push(body.at(ns(sampled)).position_m);
-                sampled += 13;
-            }
-            body.forget_before(ns(now - 50));
-        }
-        seen
-    }
-
-    #[test]
-    fn windows_do_not_change_the_truth() {
-        let reference = flown(90);
-        for window_ms in [7, 10, 33, 50] {
-            assert!(flown(window_ms) == reference, "{window_ms} ms");
-        }
-    }
-
-    #[test]
-    fn motion_keeps_the_limits_of_the_kind() {
-        let bound = Body::acceleration_bound_m_s2(&kind());
-        let mut body = body(9);
-        for (at, wish) in [(10, [0.0, -9.0, 9.0]), (2_000, [-1.0, 0.2, -9.0]), (4_000, [0.0; 3])] {
-            body.steer(ns(at), Vec3::from(wish));
-        }
-        body.integrate(ns(6_000));
-        let mut before = body.at(SimTime::ZERO);
-        for step in 1..60_000 {
-            let now = body.at(SimTime::from_ns(step * 100_000));
-            assert!(now.water_velocity_m_s.norm() <= 2.0 + 1e-12);
-            let change = (now.water_velocity_m_s - before.water_velocity_m_s).norm() / 1e-4;
-            assert!(change <= bound, "{change} at {step}");
-            assert!((now.attitude.velocity_m_s() - now.water_velocity_m_s).norm() < 1e-8);
-            assert!((now.position_m - before.position_m).norm() <= 1e-4 * 2.3);
-            before = now;
-        }
-    }
-}
+mod tests;

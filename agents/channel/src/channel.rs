@@ -14,14 +14,18 @@ use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::{Scenario, WaterSabotage};
 use thiserror::Error;
 
-use crate::birth::{self, Water};
+use crate::acoustics::profile::ProfileError;
+use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::check::{self, Check};
 use crate::digest::Digest;
 use crate::flock::Flock;
-use crate::sound::{Flight, Wavefront, reach_m};
+use crate::grid::Grid;
+use crate::medium::Medium;
+use crate::sound::{Told, Wavefront};
 use crate::tally::Tally;
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Planned, Vehicle};
+use crate::water::Water;
 
 /// Why a run cannot go on.
 #[derive(Debug, Error)]
@@ -34,6 +38,9 @@ pub enum ChannelError {
         /// What the fastest AUV allows.
         lookahead_ns: i64,
     },
+    /// The scenario's speed of sound over depth is none.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// A message could not be hashed.
     #[error(transparent)]
     Codec(#[from] CodecError),
@@ -51,7 +58,7 @@ pub enum ChannelError {
 /// use shoal_channel::channel::Channel;
 ///
 /// let (source_name, text) = shoal_scenario::load("two-circles")?;
-/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?);
+/// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?)?;
 /// let sensed = channel.advance(SimTime::from_ns(9_000_000))?;
 /// // Both AUVs woke a thousand times a second of their own clocks.
 /// assert_eq!(sensed.len(), 2);
@@ -63,9 +70,12 @@ pub enum ChannelError {
 /// ```
 pub struct Channel {
     scenario: Scenario,
-    water: Water,
     vehicles: Vec<Vehicle>,
-    flights: Vec<Flight>,
+    medium: Medium,
+    grid: Grid,
+    places_m: Vec<Vec3>,
+    told: Vec<Told>,
+    fastest_m_s: f64,
     now: SimTime,
     accepted: SimTime,
     happened: Vec<Entry>,
@@ -77,14 +87,17 @@ pub struct Channel {
 
 impl Channel {
     /// The water of `scenario` at true time zero.
-    pub fn new(scenario: &Scenario) -> Self {
-        let water = Water::new(scenario);
+    ///
+    /// # Errors
+    /// [`ChannelError::Profile`] for a scenario that no file can say.
+    pub fn new(scenario: &Scenario) -> Result<Self, ChannelError> {
+        let water = Water::new(scenario)?;
         let mut vehicles = Vec::with_capacity(scenario.auv_count() as usize);
         for (group_index, group) in scenario.groups.iter().enumerate() {
             for index in 0..group.count {
                 let auv = AuvId(vehicles.len() as u32);
                 let newborn = birth::newborn(scenario, &water, auv, group_index as u16, index);
-                let speed_m_s = Body::ground_speed_bound_m_s(&group.kind, &water.current_m_s);
+                let speed_m_s = Body::ground_speed_bound_m_s(&group.kind, &water.current);
                 let (length_m, error_s) = (group.kind.length_m, group.modem.timestamp_error_s);
                 vehicles.push(Vehicle::new(newborn, speed_m_s, length_m, error_s));
             }
@@ -94,19 +107,22 @@ impl Channel {
         {
             vehicle.body.shift_truth(SimTime::from_ns(at_ns));
         }
-        Self {
+        Ok(Self {
             scenario: scenario.clone(),
-            water,
             tally: Tally::new(vehicles.len()),
+            medium: Medium::new(scenario, &water, &vehicles),
+            grid: Grid::default(),
+            places_m: Vec::new(),
+            told: Vec::new(),
+            fastest_m_s: vehicles.iter().map(|vehicle| vehicle.ground_speed_m_s).fold(0.0, f64::max),
             vehicles,
-            flights: Vec::new(),
             now: SimTime::ZERO,
             accepted: SimTime::ZERO,
             happened: Vec::new(),
             chronicled: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
-        }
+        })
     }
 
     /// What each AUV is told at birth, sorted by AUV.
@@ -123,11 +139,7 @@ impl Channel {
 
     /// The longest window in nanoseconds: no decision made within one may act within it.
     pub fn lookahead_ns(&self) -> i64 {
-        let of = |vehicle: &Vehicle| {
-            let usable_ns = (vehicle.born.wake.reaction_ns - crate::clock::STAMP_NS) as f64;
-            (usable_ns / (1.0 + vehicle.born.clock.drift)).floor() as i64
-        };
-        self.vehicles.iter().map(of).min().unwrap_or(i64::MAX)
+        self.vehicles.iter().map(Vehicle::lookahead_ns).min().unwrap_or(i64::MAX)
     }
 
     /// True time up to which the run has advanced.
@@ -210,112 +222,110 @@ impl Channel {
         let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
         let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
         let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, self.flights.len() as u64)
+        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, self.medium.in_flight())
     }
 
     /// All pings that leave before `to`.
     fn emit(&mut self, to: SimTime) {
-        let mut leaving: Vec<(SimTime, AuvId, Frame)> = Vec::new();
+        let mut leaving: Vec<(SimTime, AuvId, Planned)> = Vec::new();
         for vehicle in &mut self.vehicles {
-            while let Some((at, frame)) = vehicle.next_emission(to) {
-                leaving.push((at, vehicle.born.auv, frame));
+            while let Some(planned) = vehicle.next_emission(to) {
+                leaving.push((planned.at, vehicle.born.auv, planned));
             }
         }
+        if leaving.is_empty() {
+            return;
+        }
         leaving.sort_by_key(|&(at, auv, _)| (at, auv));
-        // Positions at the window's start tell cheaply who is surely out of range.
         let start = self.now;
-        let near: Vec<Vec3> = match leaving.is_empty() {
-            true => Vec::new(),
-            false => self.vehicles.iter().map(|vehicle| vehicle.body.at(start).position_m).collect(),
-        };
-        for (at, from, frame) in leaving {
-            self.emit_one(at, from, frame, &near);
+        self.places_m.clear();
+        self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(start)));
+        self.grid.sort(&self.places_m, self.medium.farthest_m());
+        for (at, from, planned) in leaving {
+            self.emit_one(at, from, planned);
         }
     }
 
-    fn emit_one(&mut self, at: SimTime, from: AuvId, frame: Frame, near: &[Vec3]) {
-        let since_start_s = (at - self.now) as f64 * 1e-9;
-        let sound_speed_m_s = self.water.sound_speed_m_s;
+    fn emit_one(&mut self, at: SimTime, from: AuvId, planned: Planned) {
+        let group = self.vehicles[from.0 as usize].born.group;
+        let packet_ns = self.medium.packet_ns(group, planned.frame.bytes().len() as u16);
+        if let Some(reason) = self.held_back(at, from, &planned) {
+            let sequence = self.vehicles[from.0 as usize].emitted;
+            let fate = Fate::lost(None, reason, 0.0);
+            self.tally.traffic(from, Traffic { at, from, sequence, fate });
+            return;
+        }
         let emitter = &mut self.vehicles[from.0 as usize];
         let sequence = emitter.emitted;
         emitter.emitted += 1;
+        emitter.emits_until = at + packet_ns;
         let pose = emitter.body.at(at);
-        let range_m = emitter.born.modem.range_m;
+        let exposed = emitter.is_exposed_at(at);
         let (violation, box_width_m) =
-            check_ping(from, at, &frame, &pose.position_m, &pose.ground_velocity_m_s);
+            check_ping(from, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
         let wavefront = Arc::new(Wavefront {
             from,
             sequence,
             emitted: at,
+            packet_ns,
             origin_m: pose.position_m,
-            frame,
+            velocity_m_s: pose.ground_velocity_m_s,
+            frame: planned.frame,
             box_width_m,
-            range_m,
+            range_m: emitter.born.modem.range_m,
+            is_false: violation.is_some(),
         });
-        let mut beyond_range = 0;
-        for (receiver, near_m) in self.vehicles.iter().zip(near) {
-            let to = receiver.born.auv;
-            if to == from {
-                continue;
-            }
-            let speed_m_s = receiver.ground_speed_m_s;
-            let surely_within_m =
-                reach_m(range_m, speed_m_s, sound_speed_m_s) + speed_m_s * since_start_s + 1e-6;
-            let roughly_m2 = (near_m - wavefront.origin_m).norm_squared();
-            let flight = if roughly_m2 > surely_within_m * surely_within_m {
-                None
-            } else {
-                let distance_m = (receiver.body.at(at).position_m - wavefront.origin_m).norm();
-                wavefront.towards(to, distance_m, speed_m_s, sound_speed_m_s)
-            };
-            match flight {
-                Some(flight) => self.flights.push(flight),
-                None => beyond_range += 1,
-            }
-        }
-        let position_m = pose.position_m.into();
-        let bytes = wavefront.frame.bytes().len() as u16;
-        let fate = Fate::Emitted { position_m, bytes, box_width_m, beyond_range };
+        let moved_m = self.fastest_m_s * ((at - self.now) as f64 * 1e-9) + 1e-6;
+        let beyond_range = self.medium.emit(&wavefront, &mut self.vehicles, &self.grid, moved_m);
+        let fate = Fate::Emitted {
+            position_m: pose.position_m.into(),
+            bytes: wavefront.frame.bytes().len() as u16,
+            box_width_m,
+            beyond_range,
+            packet_s: packet_ns as f64 * 1e-9,
+        };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
-        self.tally.check(from, at, violation);
+        self.tally.check(from, at, violation, exposed);
     }
 
-    /// All wavefronts that reach their receivers before `to`.
-    fn arrive(&mut self, to: SimTime) {
-        let sound_speed_m_s = self.water.sound_speed_m_s;
-        let mut arrived = Vec::new();
-        let vehicles = &self.vehicles;
-        self.flights.retain(|flight| {
-            if flight.earliest >= to {
-                return true;
-            }
-            let receiver = &vehicles[flight.to.0 as usize];
-            match flight.arrival(&receiver.body, sound_speed_m_s, to) {
-                Some(arrival) => {
-                    arrived.push((arrival, flight.clone()));
-                    false
-                }
-                None => true,
-            }
-        });
-        arrived.sort_by_key(|(arrival, flight)| {
-            (arrival.at, flight.to, flight.wavefront.from, flight.wavefront.sequence)
-        });
-        for (arrival, Flight { wavefront, to: receiver_id, .. }) in arrived {
-            let receiver = &mut self.vehicles[receiver_id.0 as usize];
-            let (to, range_m) = (receiver_id, arrival.range_m);
-            let lost = |reason| Fate::Lost { to: Some(to), reason, range_m };
-            let fate = if range_m > wavefront.range_m {
-                lost(LossReason::Range)
-            } else if !receiver.alive {
-                lost(LossReason::Dead)
-            } else {
-                receiver.hear(arrival.at, wavefront.from.0, &wavefront.frame);
-                Fate::Heard { to, range_m, travel_s: arrival.travel_s, box_width_m: wavefront.box_width_m }
-            };
-            let (from, sequence) = (wavefront.from, wavefront.sequence);
-            self.tally.traffic(to, Traffic { at: arrival.at, from, sequence, fate });
+    /// Why a modem does not emit what is booked for now, if it does not.
+    fn held_back(&mut self, at: SimTime, from: AuvId, planned: &Planned) -> Option<LossReason> {
+        if at < self.vehicles[from.0 as usize].emits_until {
+            return Some(LossReason::HalfDuplex);
         }
+        if planned.listen_ns == 0 {
+            return None;
+        }
+        if self.medium.is_quiet(from, at + -planned.listen_ns, at, &mut self.vehicles) {
+            return None;
+        }
+        self.vehicles[from.0 as usize].hold(planned.stamp, at);
+        Some(LossReason::Busy)
+    }
+
+    /// All pings that are settled before `to`.
+    fn arrive(&mut self, to: SimTime) {
+        let mut told = std::mem::take(&mut self.told);
+        self.medium.arrive(to, &mut self.vehicles, &mut told);
+        told.sort_by_key(|told| (told.at, told.to, told.wavefront.from, told.wavefront.sequence));
+        for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
+            let receiver = &mut self.vehicles[to.0 as usize];
+            let (from, sequence) = (wavefront.from, wavefront.sequence);
+            match fate {
+                Fate::Heard { range_m, .. } if !receiver.alive => {
+                    fate = Fate::lost(Some(to), LossReason::Dead, range_m);
+                }
+                Fate::Heard { outlier, .. } => {
+                    if outlier || wavefront.is_false {
+                        receiver.expose(at);
+                    }
+                    receiver.hear(at, stamp, from.0, &wavefront.frame);
+                }
+                _ => {}
+            }
+            self.tally.traffic(to, Traffic { at, from, sequence, fate });
+        }
+        self.told = told;
     }
 
     /// All ticks before `to`.
@@ -348,7 +358,7 @@ impl Channel {
     fn watch_separation(&mut self, to: SimTime) {
         for at in Flock::samples(self.now, to) {
             let positions_m: Vec<Vec3> =
-                self.vehicles.iter().map(|vehicle| vehicle.body.at(at).position_m).collect();
+                self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect();
             let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
             self.flock.sample(&positions_m, &length_m);
         }
@@ -379,17 +389,18 @@ impl Channel {
             .position(&report.slice.position_m, &tick.between_position_m)
             .time(&report.slice.clock_offset_s, between_offset_s)
             .violation();
-        self.tally.check(auv, tick.at, at_tick);
-        self.tally.check(auv, tick.at, between_ticks);
+        let exposed = vehicle.is_exposed_at(tick.at);
+        self.tally.check(auv, tick.at, at_tick, exposed);
+        self.tally.check(auv, tick.at, between_ticks, exposed);
         if report.emptied.is_some() {
-            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)));
+            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), exposed);
         }
         self.tally.reported(auv, box_width(&report.position_m), report.clock_offset_s.width());
         for (index, ping) in acted.pings.iter().enumerate() {
             if ping.at < takes_effect {
                 // It never left, so it has no number but its place in the answer.
                 let sequence = index as u32;
-                let fate = Fate::Lost { to: None, reason: LossReason::Late, range_m: 0.0 };
+                let fate = Fate::lost(None, LossReason::Late, 0.0);
                 self.tally.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
             } else {
                 vehicle.plan(ping.clone());

@@ -26,6 +26,10 @@ pub enum Purpose {
     Arrival = 8,
     /// What the scenario knows only within bounds, such as speed of sound and current.
     Water = 9,
+    /// Fading, and whether a packet is decoded.
+    Reception = 10,
+    /// Velocity over ground.
+    Dvl = 11,
 }
 
 /// One stream of draws.
@@ -50,6 +54,11 @@ impl Draws {
     /// Uniform in `[0, 1)`, whatever the mood.
     pub fn unit(&mut self) -> f64 {
         (self.source.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+
+    /// What another random source may begin with.
+    pub fn entropy(&mut self) -> u64 {
+        self.source.next_u64()
     }
 
     /// Uniform in `[least, greatest]`, whatever the mood.

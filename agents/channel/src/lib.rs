@@ -11,11 +11,19 @@
 //! | `channel.rs` | windows, wakes, answers |
 //! | `birth.rs` | from scenario to newborn AUVs |
 //! | `vehicle.rs` | one AUV as the water knows it |
+//! | `water.rs` | what the water really is |
+//! | `current.rs` | the true current |
 //! | `body.rs` | true motion |
 //! | `clock.rs` | true clocks |
 //! | `sensors.rs` | measurements inside stated bounds |
 //! | `sound.rs` | wavefronts and arrivals |
+//! | `reception.rs` | which packets a modem decodes |
 //! | `check.rs` | enclosures against the truth |
+//! | `grid.rs` | who is near |
+//! | `ideal.rs` | sound as a sphere with a sharp edge |
+//! | `medium.rs` | either level behind one face |
+//! | `budget.rs` | the sonar equation |
+//! | `sea.rs` | sound as in water |
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
@@ -24,13 +32,21 @@
 pub mod acoustics;
 pub mod birth;
 pub mod body;
+pub mod budget;
 pub mod channel;
 pub mod check;
 pub mod clock;
+pub mod current;
 pub mod digest;
 pub mod draw;
 pub mod flock;
+pub mod grid;
+mod ideal;
+mod medium;
+pub mod reception;
+mod sea;
 pub mod sensors;
 pub mod sound;
 mod tally;
 pub mod vehicle;
+pub mod water;

@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use shoal_bus::message::AuvId;
 use shoal_bus::ping::Frame;
-use shoal_bus::time::SimTime;
+use shoal_bus::time::{LocalTime, SimTime};
+use shoal_bus::traffic::Fate;
 
 use crate::body::{Body, Segment, Vec3};
 
@@ -24,14 +25,35 @@ pub struct Wavefront {
     pub sequence: u32,
     /// True time of emission.
     pub emitted: SimTime,
+    /// Length of the packet at the emitter, in nanoseconds of true time.
+    pub packet_ns: i64,
     /// True position of emission, in metres.
     pub origin_m: Vec3,
+    /// True velocity over ground at the emission, in m/s.
+    pub velocity_m_s: Vec3,
     /// What it carries.
     pub frame: Frame,
     /// Width of the position box that it carries, in metres.
     pub box_width_m: f64,
-    /// Heard up to this range, in metres.
+    /// Heard up to this range at level `ideal`, in metres.
     pub range_m: f64,
+    /// Whether what it carries does not hold the truth.
+    pub is_false: bool,
+}
+
+/// What one receiver makes of one wavefront.
+#[derive(Debug)]
+pub struct Told {
+    /// True time at which it is settled: at level `sea`, the packet's end.
+    pub at: SimTime,
+    /// The receiver.
+    pub to: AuvId,
+    /// The wavefront.
+    pub wavefront: Arc<Wavefront>,
+    /// Heard or lost.
+    pub fate: Fate,
+    /// What the receiver's clock read when the packet began, if that was not at `at`.
+    pub stamp: Option<LocalTime>,
 }
 
 /// A wavefront on its way to one receiver.
@@ -166,10 +188,13 @@ mod tests {
             from: AuvId(1),
             sequence: 0,
             emitted: SimTime::from_ns(emitted_ns),
+            packet_ns: 0,
+            velocity_m_s: Vec3::zeros(),
             origin_m: Vec3::new(3.0, -2.0, -1.0),
             frame: Frame::new(&[]).unwrap(),
             box_width_m: 0.0,
             range_m: 1e4,
+            is_false: false,
         })
     }
 

@@ -1,9 +1,11 @@
 //! Keeps count: what happened in the window, and what the whole run amounts to.
 
+use std::collections::BTreeSet;
+
 use shoal_bus::chronicle::{Entry, Violation, What};
 use shoal_bus::message::AuvId;
 use shoal_bus::summary::{
-    Agents, Containment, Flock, LostAgent, Pings, SUMMARY_FORMAT, Summary, ViolationLine, Widths,
+    Agents, Containment, Flock, LostAgent, Misled, Pings, SUMMARY_FORMAT, Summary, ViolationLine, Widths,
 };
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
@@ -19,6 +21,8 @@ pub struct Tally {
     wakes: u64,
     checks: u64,
     violations: u64,
+    misled: BTreeSet<AuvId>,
+    misled_violations: u64,
     first_violations: Vec<(SimTime, AuvId, Violation)>,
     widths: Vec<Option<ReportWidths>>,
     pings: Pings,
@@ -40,6 +44,8 @@ impl Tally {
             wakes: 0,
             checks: 0,
             violations: 0,
+            misled: BTreeSet::new(),
+            misled_violations: 0,
             first_violations: Vec::new(),
             widths: vec![None; auvs],
             pings: Pings::default(),
@@ -60,7 +66,11 @@ impl Tally {
                 self.pings.emitted += 1;
                 self.pings.lost.range += u64::from(beyond_range);
             }
-            Fate::Heard { .. } => self.pings.heard += 1,
+            Fate::Heard { outlier, .. } => {
+                self.pings.heard += 1;
+                self.pings.outliers += u64::from(outlier);
+            }
+            Fate::Lost { to: None, reason: LossReason::HalfDuplex, .. } => self.pings.lost.unsent += 1,
             Fate::Lost { reason, .. } => {
                 let lost = &mut self.pings.lost;
                 *match reason {
@@ -68,6 +78,10 @@ impl Tally {
                     LossReason::Noise => &mut lost.noise,
                     LossReason::Collision => &mut lost.collision,
                     LossReason::HalfDuplex => &mut lost.half_duplex,
+                    LossReason::Shadow => &mut lost.shadow,
+                    LossReason::Asleep => &mut lost.asleep,
+                    LossReason::Band => &mut lost.band,
+                    LossReason::Busy => &mut lost.busy,
                     LossReason::Late => &mut lost.late,
                     LossReason::Dead => &mut lost.dead,
                 } += 1;
@@ -76,10 +90,15 @@ impl Tally {
         self.happened(traffic.at, auv, What::Traffic(traffic));
     }
 
-    /// An enclosure was checked.
-    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>) {
+    /// An enclosure was checked; a violation by an AUV that is exposed to something false is counted apart.
+    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>, exposed: bool) {
         self.checks += 1;
         let Some(violation) = violation else { return };
+        if exposed {
+            self.misled_violations += 1;
+            self.misled.insert(auv);
+            return;
+        }
         self.violations += 1;
         self.first_violations.push((at, auv, violation));
         self.first_violations.sort_by_key(|&(at, auv, _)| (at, auv));
@@ -155,7 +174,8 @@ impl Tally {
             unit: violation.coordinate.unit().to_owned(),
         };
         let first = self.first_violations.iter().map(line).collect();
-        Containment { checks: self.checks, violations: self.violations, first }
+        let misled = Misled { auvs: self.misled.len() as u32, violations: self.misled_violations };
+        Containment { checks: self.checks, violations: self.violations, first, misled }
     }
 }
 

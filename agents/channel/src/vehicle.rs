@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Acted, Born, Event, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{Acted, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 
@@ -14,6 +14,8 @@ use crate::sensors::Sensors;
 
 /// So many pings beyond twice its schedule may wait to be emitted; more is an AUV out of its mind.
 const PINGS_OUTSTANDING: usize = 64;
+/// A modem listens at most so long before it emits, in nanoseconds.
+pub const LISTEN_MAX_NS: i64 = 10 * 1_000_000_000;
 /// A ping may be booked at most so much earlier than a schedule needs, in local nanoseconds.
 const BOOKING_SLACK_NS: i64 = 60 * 1_000_000_000;
 
@@ -33,6 +35,9 @@ pub struct Vehicle {
     pub length_m: f64,
     /// Pings emitted so far.
     pub emitted: u32,
+    /// End of its last packet, at the emitter.
+    pub emits_until: SimTime,
+    exposed_since: Option<SimTime>,
     sensors: Sensors,
     timestamps: Draws,
     timestamp_error_s: f64,
@@ -40,8 +45,22 @@ pub struct Vehicle {
     next_tick_at: SimTime,
     last_tick_at: SimTime,
     heard: Vec<HeardPing>,
-    planned: VecDeque<(SimTime, Frame)>,
+    held: Vec<(LocalTime, SimTime)>,
+    planned: VecDeque<Planned>,
     answered: VecDeque<Tick>,
+}
+
+/// A ping that is booked.
+#[derive(Clone, Copy, Debug)]
+pub struct Planned {
+    /// True time of its emission.
+    pub at: SimTime,
+    /// The local time for which it was booked.
+    pub stamp: LocalTime,
+    /// Not to be emitted when the modem heard something within so many nanoseconds before.
+    pub listen_ns: i64,
+    /// What it says.
+    pub frame: Frame,
 }
 
 /// A ping that was decoded but not yet handed over.
@@ -82,6 +101,8 @@ impl Vehicle {
             ground_speed_m_s,
             length_m,
             emitted: 0,
+            emits_until: SimTime::ZERO,
+            exposed_since: None,
             sensors,
             timestamps: arrivals,
             timestamp_error_s,
@@ -89,6 +110,7 @@ impl Vehicle {
             next_tick_at,
             last_tick_at: SimTime::ZERO,
             heard: Vec::new(),
+            held: Vec::new(),
             planned: VecDeque::new(),
             answered: VecDeque::new(),
         }
@@ -99,11 +121,32 @@ impl Vehicle {
         self.next_tick_at
     }
 
-    /// Takes a decoded ping that arrived at true time `at`.
-    pub fn hear(&mut self, at: SimTime, from: u32, frame: &Frame) {
+    /// Nothing that it decides acts sooner than so many nanoseconds of true time later.
+    pub fn lookahead_ns(&self) -> i64 {
+        let usable_ns = (self.born.wake.reaction_ns - crate::clock::STAMP_NS) as f64;
+        (usable_ns / (1.0 + self.born.clock.drift)).floor() as i64
+    }
+
+    /// It heard something false: an outlier, or a payload that does not hold the truth.
+    pub fn expose(&mut self, since: SimTime) {
+        self.exposed_since.get_or_insert(since);
+    }
+
+    /// Whether what it states at `at` may rest on something false that it heard.
+    pub fn is_exposed_at(&self, at: SimTime) -> bool {
+        self.exposed_since.is_some_and(|since| since <= at)
+    }
+
+    /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.
+    pub fn hear(&mut self, at: SimTime, stamp: Option<LocalTime>, from: u32, frame: &Frame) {
         let error_ns = (self.timestamps.error(self.timestamp_error_s) * 1e9) as i64;
-        let stamp = self.clock.read(at) + error_ns;
+        let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns;
         self.heard.push(HeardPing { stamp, at, from, frame: *frame });
+    }
+
+    /// Its modem held back, at true time `at`, the ping that was booked for `stamp`.
+    pub fn hold(&mut self, stamp: LocalTime, at: SimTime) {
+        self.held.push((stamp, at));
     }
 
     /// Refuses answers that no working AUV gives; the reason is a clause.
@@ -117,7 +160,7 @@ impl Vehicle {
             return Err("its setpoint is not a velocity".to_owned());
         }
         let ahead_ns = wake.reaction_ns + 2 * wake.period_ns;
-        let scheduled = orders.ping.map_or(0, |ping| ahead_ns / ping.period_ns) as usize;
+        let scheduled = shortest_gap_ns(&orders.access).map_or(0, |gap_ns| ahead_ns / gap_ns) as usize;
         if self.planned.len() + acted.pings.len() > 2 * scheduled + PINGS_OUTSTANDING {
             let waiting = self.planned.len();
             return Err(format!("it booked {} pings on top of {waiting}", acted.pings.len()));
@@ -130,6 +173,9 @@ impl Vehicle {
                     modem.frame_bytes
                 ));
             }
+            if !(0..=LISTEN_MAX_NS).contains(&ping.listen_ns) {
+                return Err("it booked a ping that listens for no sensible time".to_owned());
+            }
             if ping.at.ns().saturating_sub(tick.stamp.ns()) > ahead_ns + BOOKING_SLACK_NS {
                 return Err("it booked a ping far ahead of its time".to_owned());
             }
@@ -140,13 +186,14 @@ impl Vehicle {
     /// Books a ping; `at` lies in no window already advanced.
     pub fn plan(&mut self, ping: PlannedPing) {
         let at = self.clock.reaches(ping.at);
-        let place = self.planned.partition_point(|&(earlier, _)| earlier <= at);
-        self.planned.insert(place, (at, ping.frame));
+        let place = self.planned.partition_point(|earlier| earlier.at <= at);
+        let PlannedPing { at: stamp, listen_ns, frame } = ping;
+        self.planned.insert(place, Planned { at, stamp, listen_ns, frame });
     }
 
     /// The next booked ping that leaves before `horizon`.
-    pub fn next_emission(&mut self, horizon: SimTime) -> Option<(SimTime, Frame)> {
-        if self.planned.front()?.0 >= horizon { None } else { self.planned.pop_front() }
+    pub fn next_emission(&mut self, horizon: SimTime) -> Option<Planned> {
+        if self.planned.front()?.at >= horizon { None } else { self.planned.pop_front() }
     }
 
     /// What it senses at its next tick, which comes before the horizon that its body is integrated to.
@@ -161,6 +208,7 @@ impl Vehicle {
         let mut events = Vec::new();
         self.sensors.sense(stamp, at, &pose, &mut events);
         self.hand_over_heard(stamp, at, &mut events);
+        self.hand_over_held(stamp, at, &mut events);
         events.sort_by_key(|event| (event.stamp, kind_rank(&event.sense)));
 
         let tick = Tick { index: self.next_tick, stamp, at, pose, between, between_position_m };
@@ -184,6 +232,17 @@ impl Vehicle {
         );
     }
 
+    /// Pings held back up to this tick.
+    fn hand_over_held(&mut self, stamp: LocalTime, at: SimTime, events: &mut Vec<Event>) {
+        self.held.retain(|&(held, held_at)| {
+            let waits = held > stamp || held_at > at;
+            if !waits {
+                events.push(Event { stamp: held, sense: Sense::Held });
+            }
+            waits
+        });
+    }
+
     /// The oldest tick that waits for its answer.
     pub fn answer_tick(&mut self) -> Option<Tick> {
         self.answered.pop_front()
@@ -193,6 +252,7 @@ impl Vehicle {
     pub fn end(&mut self, at: SimTime) {
         self.alive = false;
         self.heard.clear();
+        self.held.clear();
         self.answered.clear();
         let rest_from = self.body.last_setpoint().map_or(at, |last| last.max(at));
         self.body.steer(rest_from, Vec3::zeros());
@@ -210,8 +270,20 @@ impl Vehicle {
 fn kind_rank(sense: &Sense) -> u8 {
     match sense {
         Sense::Inertial { .. } => 0,
-        Sense::Depth { .. } => 1,
-        Sense::Gnss { .. } => 2,
-        Sense::Heard { .. } => 3,
+        Sense::Dvl { .. } => 1,
+        Sense::Depth { .. } => 2,
+        Sense::Gnss { .. } => 3,
+        Sense::Heard { .. } => 4,
+        Sense::Held => 5,
+    }
+}
+
+/// Local nanoseconds between pings, on average; `None` for a silent AUV.
+fn shortest_gap_ns(access: &MediumAccess) -> Option<i64> {
+    match *access {
+        MediumAccess::Silent => None,
+        MediumAccess::Periodic { period_ns, .. } | MediumAccess::Csma { period_ns, .. } => Some(period_ns),
+        MediumAccess::Aloha { mean_period_ns, .. } => Some(mean_period_ns),
+        MediumAccess::Slotted { slot_ns, slots, .. } => Some(slot_ns.saturating_mul(i64::from(slots))),
     }
 }

@@ -74,6 +74,18 @@ pub enum RecordReadError {
     /// Some other kind of file.
     #[error("this is not an MCAP file: it does not begin with the MCAP magic bytes")]
     NotMcap,
+    /// Some other MCAP file.
+    #[error("this MCAP file is not the record of a run: it has no metadata record `{}`", super::METADATA_RUN)]
+    NotARecord,
+    /// A record of another version.
+    #[error(
+        "this record has format {found}, and this version of shoal reads format {}",
+        super::RECORD_FORMAT
+    )]
+    UnknownFormat {
+        /// Version of its layout.
+        found: u32,
+    },
     /// The bytes are not those that were written.
     #[error("damaged between bytes {from} and {to}: {damage}")]
     Damaged {
@@ -110,6 +122,14 @@ pub enum Damage {
     /// The summary of the run is not one.
     #[error("the run's summary is malformed: {0}")]
     Summary(serde_json::Error),
+    /// The rows of a message are not those that its schema describes.
+    #[error("a message of {topic} is malformed: {source}")]
+    Rows {
+        /// The topic.
+        topic: &'static str,
+        /// What is wrong with it.
+        source: serde_json::Error,
+    },
     /// A record cannot be parsed.
     #[error("a record is malformed: {0}")]
     Structure(McapError),

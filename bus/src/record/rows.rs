@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::chronicle::Truth;
 use crate::message::{Acted, AuvId, Bounds, BoundsBox, Culprit, Emptied};
 use crate::time::{LocalTime, SimTime};
-use crate::traffic::{Fate, LossReason, Traffic};
+use crate::traffic::{Fate, LossReason, Reception, Traffic};
 
 /// A number that may be other than finite: `null` in JSON, then.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -193,6 +193,8 @@ pub enum PingRow {
         box_width_m: Real,
         /// AUVs that are too far away to ever hear it.
         beyond_range: u32,
+        /// Length of the packet, in seconds; 0 at level `ideal`.
+        packet_s: Real,
     },
     /// It was decoded.
     Heard {
@@ -210,6 +212,12 @@ pub enum PingRow {
         travel_s: Real,
         /// Width of the position box that it carries, in metres.
         box_width_m: Real,
+        /// How it was received; absent at level `ideal`.
+        #[serde(skip_serializing_if = "Option::is_none", default)]
+        reception: Option<ReceptionRow>,
+        /// Whether it came the long way round.
+        #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+        outlier: bool,
     },
     /// It was not decoded, or never left.
     Lost {
@@ -225,15 +233,46 @@ pub enum PingRow {
         reason: LossReason,
         /// Distance as for `heard`, in metres; 0 for a ping that never left.
         range_m: Real,
+        /// How it arrived; absent at level `ideal`, and where nothing arrived.
+        #[serde(skip_serializing_if = "Option::is_none", default)]
+        reception: Option<ReceptionRow>,
+        /// Whose packets it collided with.
+        #[serde(skip_serializing_if = "Vec::is_empty", default)]
+        colliding: Vec<AuvId>,
     },
+}
+
+/// How a packet arrived.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReceptionRow {
+    /// `direct`, or the boundaries it bounced off in order, such as `surface-bottom`.
+    pub path: String,
+    /// Received level in dB re 1 µPa.
+    pub level_db: Real,
+    /// Level over noise and interference in dB.
+    pub sinr_db: Real,
+    /// Factor of frequencies.
+    pub doppler: Real,
+}
+
+impl ReceptionRow {
+    fn new(of: &Reception) -> Self {
+        let Reception { path, level_db, sinr_db, doppler } = *of;
+        Self {
+            path: path.to_string(),
+            level_db: Real(level_db),
+            sinr_db: Real(sinr_db),
+            doppler: Real(doppler),
+        }
+    }
 }
 
 impl PingRow {
     /// The row of `traffic`.
     pub fn new(traffic: &Traffic) -> Self {
-        let Traffic { at: t_ns, from, sequence, fate } = *traffic;
-        match fate {
-            Fate::Emitted { position_m, bytes, box_width_m, beyond_range } => Self::Emitted {
+        let Traffic { at: t_ns, from, sequence, ref fate } = *traffic;
+        match *fate {
+            Fate::Emitted { position_m, bytes, box_width_m, beyond_range, packet_s } => Self::Emitted {
                 t_ns,
                 from,
                 sequence,
@@ -241,8 +280,9 @@ impl PingRow {
                 bytes,
                 box_width_m: Real(box_width_m),
                 beyond_range,
+                packet_s: Real(packet_s),
             },
-            Fate::Heard { to, range_m, travel_s, box_width_m } => Self::Heard {
+            Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => Self::Heard {
                 t_ns,
                 from,
                 sequence,
@@ -250,10 +290,19 @@ impl PingRow {
                 range_m: Real(range_m),
                 travel_s: Real(travel_s),
                 box_width_m: Real(box_width_m),
+                reception: reception.as_ref().map(ReceptionRow::new),
+                outlier,
             },
-            Fate::Lost { to, reason, range_m } => {
-                Self::Lost { t_ns, from, sequence, to, reason, range_m: Real(range_m) }
-            }
+            Fate::Lost { to, reason, range_m, ref reception, ref colliding } => Self::Lost {
+                t_ns,
+                from,
+                sequence,
+                to,
+                reason,
+                range_m: Real(range_m),
+                reception: reception.as_ref().map(ReceptionRow::new),
+                colliding: colliding.clone(),
+            },
         }
     }
 }

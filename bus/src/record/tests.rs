@@ -3,6 +3,7 @@
 mod bytes;
 mod damage;
 mod outside;
+mod read;
 mod synthetic;
 
 use super::rows::{PingRow, ReportRow, TruthRow};

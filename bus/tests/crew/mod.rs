@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use shoal_bus::codec::encode;
 use shoal_bus::lockstep::{Answers, Batch, Fleet, FleetError, Link, Loss, Mind, ToAuv, live};
 use shoal_bus::message::{
-    Acted, AuvId, BodyBounds, Born, Bounds, ClockBounds, Controller, Estimator, Event, Measured, ModemBounds,
-    Orders, PlannedPing, Report, Sense, Sensed, Setpoint, Slice, Wake,
+    Acted, AuvId, BodyBounds, Born, Bounds, ClockBounds, Controller, Estimator, Event, Measured,
+    MediumAccess, ModemBounds, Orders, PlannedPing, Report, Sense, Sensed, Setpoint, Slice, Wake,
 };
 use shoal_bus::ping::Frame;
 use shoal_bus::run_dir::RunDir;
@@ -111,7 +111,7 @@ impl Mind for Echo {
         let clock_offset_s = Bounds::new(0.0, self.steps as f64);
         let position_m = [Bounds::new(0.0, f64::from(self.auv.0)); 3];
         let heard = sensed.events.iter().filter_map(|event| match &event.sense {
-            Sense::Heard { frame } => Some(PlannedPing { at: event.stamp, frame: *frame }),
+            Sense::Heard { frame } => Some(PlannedPing { at: event.stamp, listen_ns: 0, frame: *frame }),
             _ => None,
         });
         Acted {
@@ -150,7 +150,14 @@ pub fn born(count: u32) -> Vec<Born> {
         clock: ClockBounds { drift: 0.0, offset_s: side[0], stamp_ns: 1 },
         birth: LocalTime::ZERO,
         prior_position_m: side,
-        body: BodyBounds { speed_m_s: 2.0, acceleration_m_s2: 1.0, current_m_s: side, disturbance_m_s: side },
+        body: BodyBounds {
+            speed_m_s: 2.0,
+            acceleration_m_s2: 1.0,
+            current_m_s: side,
+            current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
+            disturbance_m_s: side,
+        },
         modem: ModemBounds {
             range_m: 500.0,
             hearing_range_m: 500.0,
@@ -161,7 +168,7 @@ pub fn born(count: u32) -> Vec<Born> {
         orders: Orders {
             estimator: Estimator::Tube { horizon_ns: 1 },
             controller: Controller::Hold,
-            ping: None,
+            access: MediumAccess::Silent,
             area_m: side,
             sabotage: None,
         },

@@ -35,14 +35,15 @@
 
 mod arc;
 mod column;
-mod path;
 mod route;
 mod solve;
 #[cfg(test)]
 mod tests;
+mod trace;
 
 pub use self::column::WaterColumn;
-pub use self::path::{Boundary, SoundPath};
+pub use self::trace::Waypoint;
+pub use shoal_bus::traffic::{Boundary, SoundPath};
 
 /// The direction of a ray at a point: the direction in which sound travels, seen from the side.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,9 +7,9 @@ use crate::message::{
 };
 use crate::ping::Frame;
 use crate::record::{RecordHeader, RecordWriter, RecordedAuv};
-use crate::summary::{Agents, Containment, Flock, Memory, Pings, SUMMARY_FORMAT, Summary, Widths};
+use crate::summary::{Agents, Containment, Flock, Memory, Misled, Pings, SUMMARY_FORMAT, Summary, Widths};
 use crate::time::{LocalTime, NS_PER_S, SimTime};
-use crate::traffic::{Fate, LossReason, Traffic};
+use crate::traffic::{Boundary, Fate, LossReason, Reception, SoundPath, Traffic};
 
 const TICK_NS: i64 = NS_PER_S / 10;
 const NEIGHBOURS: u32 = 30;
@@ -44,7 +44,7 @@ pub fn summary_with(auvs: u32, end_max: f64) -> Summary {
         real_time_factor: Some(30.0),
         wakes: 210,
         digest: "blake3:00ff".into(),
-        containment: Containment { checks: 42, violations: 2, first: Vec::new() },
+        containment: Containment { checks: 42, violations: 2, first: Vec::new(), misled: Misled::default() },
         position_width_m: Widths::default(),
         clock_width_s: Widths { end_max, ..Widths::default() },
         pings: Pings::default(),
@@ -131,7 +131,7 @@ fn tick_of(auv: AuvId, at: SimTime, tick: u64, noise: &mut Noise, entries: &mut 
     let (position_m, slice_m) = (sides(2.0), sides(2.2));
     let clock_offset_s = Bounds::new(-0.017 + 1e-3 * noise.draw(), -0.015 + 1e-3 * noise.draw());
     let pings = match tick % 10 {
-        0 => vec![PlannedPing { at: stamp + TICK_NS, frame: noise.frame() }],
+        0 => vec![PlannedPing { at: stamp + TICK_NS, listen_ns: 0, frame: noise.frame() }],
         _ => Vec::new(),
     };
     let acted = Acted {
@@ -159,19 +159,39 @@ fn pings_of(from: AuvId, auvs: u32, begin: i64, sequence: u32, noise: &mut Noise
         entries.push(Entry { at, auv, what: What::Traffic(Traffic { at, from, sequence, fate }) });
     };
     let position_m = [noise.draw() * 500.0, noise.draw() * 500.0, -20.0];
-    let emitted = Fate::Emitted { position_m, bytes: 32, box_width_m: 4.0 + noise.draw(), beyond_range: 3 };
+    let emitted = Fate::Emitted {
+        position_m,
+        bytes: 31,
+        box_width_m: 4.0 + noise.draw(),
+        beyond_range: 3,
+        packet_s: 0.2,
+    };
     push(from, i64::from(from.0) % 100 * 1_000, emitted);
     let box_width_m = 4.0 + noise.draw();
     for step in 1..=NEIGHBOURS.min(auvs - 1) {
         let to = AuvId((from.0 + step) % auvs);
         let range_m = 300.0 * noise.draw().abs() + 5.0;
         let travel_s = range_m / 1_500.0;
-        push(to, (travel_s * 1e9) as i64 + 100_000, Fate::Heard { to, range_m, travel_s, box_width_m });
+        let reception = (step % 2 == 0).then_some(Reception {
+            path: SoundPath::Bounced { first: Boundary::Bottom, bounces: 2 },
+            level_db: 100.0 + noise.draw(),
+            sinr_db: 12.0,
+            doppler: 1.0 + 1e-3 * noise.draw(),
+        });
+        let outlier = step % 4 == 0;
+        let heard = Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier };
+        push(to, (travel_s * 1e9) as i64 + 100_000, heard);
         if step % 5 == 0 {
             push(
                 to,
                 (travel_s * 2e9) as i64 + 100_000,
-                Fate::Lost { to: Some(to), reason: LossReason::HalfDuplex, range_m },
+                Fate::Lost {
+                    to: Some(to),
+                    reason: LossReason::Collision,
+                    range_m,
+                    reception,
+                    colliding: vec![AuvId(1), AuvId(2)],
+                },
             );
         }
     }

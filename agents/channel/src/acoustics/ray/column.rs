@@ -1,9 +1,9 @@
 //! The water between surface and bottom, and the search for its rays.
 
 use super::arc::Arc;
-use super::path::{Boundary, SoundPath};
 use super::route::{Route, Stretch, Turn};
 use super::solve::{self, Found};
+use super::{Boundary, SoundPath};
 use super::{Direction, Ray};
 use crate::acoustics::profile::{Level, Profile};
 
@@ -118,7 +118,7 @@ impl WaterColumn {
         if bounces == 0 || pair.upper.depth_m < 0.0 || pair.lower.depth_m > self.bottom_depth_m {
             return None;
         }
-        let last = if bounces % 2 == 1 { first } else { first.opposite() };
+        let last = if bounces % 2 == 1 { first } else { first.other() };
         let crossings = f64::from(bounces - 1);
         let (upper_towards, lower_towards) = if pair.goes_down { (first, last) } else { (last, first) };
         // The leg of the upper point crosses what is above it or all below it, that of the lower one likewise.
@@ -248,7 +248,7 @@ impl WaterColumn {
     }
 
     /// Where a layer ends on one side: at its node, or at `limit_m` if that is nearer.
-    fn layer_end(&self, layer: usize, side: Boundary, limit_m: f64) -> Option<Level> {
+    pub(super) fn layer_end(&self, layer: usize, side: Boundary, limit_m: f64) -> Option<Level> {
         match side {
             Boundary::Surface => {
                 let node = self.profile.node_above(layer)?;

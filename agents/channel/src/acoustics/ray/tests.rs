@@ -167,7 +167,7 @@ fn paths() -> impl Strategy<Value = SoundPath> {
 fn backwards(path: SoundPath) -> SoundPath {
     match path {
         SoundPath::Bounced { first, bounces } if bounces % 2 == 0 => {
-            SoundPath::Bounced { first: first.opposite(), bounces }
+            SoundPath::Bounced { first: first.other(), bounces }
         }
         path => path,
     }

@@ -1,0 +1,149 @@
+//! Reads the rows of a record: typed, in the order of the file, one batch in memory at a time.
+
+use std::io::{Read, Seek};
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use super::rows::{PingRow, ReportRow, TruthRow};
+use super::scan::{Ending, Item, Source, scan};
+use super::{Damage, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordReadError, RecordedAuv, Topic};
+
+/// One row of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Row {
+    /// What stands at the beginning; comes first, and once.
+    Header(RecordHeader),
+    /// One AUV's true state at a tick, from [`Topic::Ticks`].
+    Truth(TruthRow),
+    /// What one AUV answered and believed at a tick, from [`Topic::Reports`].
+    Report(ReportRow),
+    /// What became of a ping, from [`Topic::Pings`].
+    Ping(PingRow),
+}
+
+/// Hands the header and the rows of `topics` to `visit`, in the order of the file, and tells how the file ends.
+///
+/// Within a batch (100 ms) all ticks come before all reports and all reports before all pings; each are sorted by time.
+/// Messages of topics that are not asked for are not parsed, but their checksums are verified. Topics other than
+/// [`Topic::Ticks`], [`Topic::Reports`] and [`Topic::Pings`] have no rows.
+///
+/// Memory: one chunk and the rows of one message, whatever the length of the file.
+///
+/// ```
+/// use shoal_bus::record::{RecordHeader, RecordWriter, Row, Topic, read_rows};
+/// let header = RecordHeader { scenario_name: "a".into(), seed: 1, scenario_text: "b".into(), auvs: vec![] };
+/// let mut file = Vec::new();
+/// drop(RecordWriter::create(&mut file, &header)?);
+/// let mut rows = Vec::new();
+/// read_rows(std::io::Cursor::new(&file), &[Topic::Pings], &mut |row| rows.push(row)).unwrap();
+/// assert_eq!(rows, [Row::Header(header)]);
+/// # Ok::<(), shoal_bus::record::RecordWriteError>(())
+/// ```
+///
+/// # Errors
+/// When the source cannot be read or is damaged; when it is no MCAP file, no record of a run, or a record whose layout this
+/// version does not know. Rows before the damage have been handed over by then.
+pub fn read_rows<R: Read + Seek>(
+    source: R,
+    topics: &[Topic],
+    visit: &mut dyn FnMut(Row),
+) -> Result<Ending, RecordReadError> {
+    let mut beginning = Beginning::default();
+    let ending = scan(source, &mut |item| match item {
+        Item::Metadata { name: METADATA_RUN, entries } => {
+            beginning.format = entries.get("format").and_then(|format| format.parse().ok());
+            beginning.name = entries.get("scenario").cloned().unwrap_or_default();
+            beginning.seed = entries.get("seed").and_then(|seed| seed.parse().ok()).unwrap_or_default();
+            Ok(())
+        }
+        Item::Attachment { name: "scenario.toml", data, .. } => {
+            beginning.text = String::from_utf8_lossy(data).into_owned();
+            Ok(())
+        }
+        Item::Message { source, data, .. } if beginning.is_known() => {
+            let topic = Topic::ALL.into_iter().find(|topic| is_of(source, *topic));
+            match topic {
+                Some(Topic::Auvs) if !beginning.is_told => {
+                    let Auvs { auvs } = parse(Topic::Auvs, data)?;
+                    visit(Row::Header(beginning.tell(auvs)));
+                    Ok(())
+                }
+                Some(topic) if topics.contains(&topic) => rows(topic, data, visit),
+                _ => Ok(()),
+            }
+        }
+        _ => Ok(()),
+    })?;
+    match beginning {
+        Beginning { format: None, .. } => Err(RecordReadError::NotARecord),
+        Beginning { format: Some(found), .. } if found != RECORD_FORMAT => {
+            Err(RecordReadError::UnknownFormat { found })
+        }
+        _ => Ok(ending),
+    }
+}
+
+/// What has been seen of the header.
+#[derive(Default)]
+struct Beginning {
+    format: Option<u32>,
+    name: String,
+    seed: u64,
+    text: String,
+    is_told: bool,
+}
+
+impl Beginning {
+    fn is_known(&self) -> bool {
+        self.format == Some(RECORD_FORMAT)
+    }
+
+    fn tell(&mut self, auvs: Vec<RecordedAuv>) -> RecordHeader {
+        self.is_told = true;
+        RecordHeader {
+            scenario_name: std::mem::take(&mut self.name),
+            seed: self.seed,
+            scenario_text: std::mem::take(&mut self.text),
+            auvs,
+        }
+    }
+}
+
+fn is_of(source: &Source, topic: Topic) -> bool {
+    source.topic == topic.name() && source.schema == topic.schema_name()
+}
+
+fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
+    match topic {
+        Topic::Ticks => parse::<Ticks>(topic, data)?.ticks.into_iter().map(Row::Truth).for_each(visit),
+        Topic::Reports => parse::<Reports>(topic, data)?.reports.into_iter().map(Row::Report).for_each(visit),
+        Topic::Pings => parse::<Pings>(topic, data)?.pings.into_iter().map(Row::Ping).for_each(visit),
+        Topic::Auvs | Topic::Poses | Topic::Log | Topic::Sensed | Topic::Summary => {}
+    }
+    Ok(())
+}
+
+fn parse<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
+    serde_json::from_slice(data).map_err(|source| Damage::Rows { topic: topic.name(), source })
+}
+
+#[derive(Deserialize)]
+struct Auvs {
+    auvs: Vec<RecordedAuv>,
+}
+
+#[derive(Deserialize)]
+struct Ticks {
+    ticks: Vec<TruthRow>,
+}
+
+#[derive(Deserialize)]
+struct Reports {
+    reports: Vec<ReportRow>,
+}
+
+#[derive(Deserialize)]
+struct Pings {
+    pings: Vec<PingRow>,
+}
