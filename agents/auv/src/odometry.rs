@@ -128,6 +128,7 @@ mod tests {
             acceleration_m_s2: 1.0,
             current_m_s: none,
             current_change_m_s2: [0.0; 3],
+            current_step_m_s: [0.0; 3],
             disturbance_m_s: none,
         };
         Motion::new(&body, &ClockBounds { drift: 1e-4, offset_s: none[0], stamp_ns: 2 })
@@ -138,7 +139,8 @@ mod tests {
     fn eastbound(ticks: i64, horizon_ns: i64) -> Odometry {
         let mut odometry = Odometry::new(horizon_ns);
         let east_m_s = IntervalBox::from([Interval::ONE, Interval::ZERO, Interval::ZERO]);
-        let stretch = Stretch { before_m_s: east_m_s, after_m_s: east_m_s, length_s: 0.1 };
+        let current_m_s = IntervalBox::from([Interval::ZERO; 3]);
+        let stretch = Stretch { before_m_s: east_m_s, after_m_s: east_m_s, current_m_s, length_s: 0.1 };
         for tick in 0..ticks {
             let begun = LocalTime::from_ns(tick * TICK_NS);
             let x = Interval::centred(0.1 * tick as f64, 0.5e-3 * tick as f64);
