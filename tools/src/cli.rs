@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::plot::Kind;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
 
@@ -42,6 +43,12 @@ pub enum Command {
         after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
     )]
     Tap(TapArgs),
+    /// Draw a figure (SVG) of what a record holds
+    #[command(
+        after_help = "Examples:\n  shoal run six-circles --record circles.mcap\n  shoal plot circles.mcap losses -o losses.svg\n  \
+        rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
+    )]
+    Plot(PlotArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {
@@ -165,6 +172,24 @@ pub struct SweepArgs {
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct PlotArgs {
+    /// The record, as `shoal run --record` leaves it
+    pub record: PathBuf,
+    /// What to draw
+    #[arg(value_enum)]
+    pub kind: Kind,
+    /// File to write; standard output unless given
+    #[arg(long, short, value_name = "FILE.svg")]
+    pub out: Option<PathBuf>,
+    /// For `rays`: depth of the source in metres; that of the first ping unless given
+    #[arg(long, value_name = "METRES")]
+    pub depth_m: Option<f64>,
+    /// For `rays`: how far to follow them, in metres; as far as pings went unless given
+    #[arg(long, value_name = "METRES")]
+    pub range_m: Option<f64>,
 }
 
 #[derive(Debug, Args)]

@@ -8,9 +8,11 @@ mod cli;
 mod drive;
 mod exit;
 mod failure;
+mod figure;
 mod launch;
 mod memory;
 mod observers;
+mod plot;
 mod processes;
 mod processor;
 mod progress;
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
 fn command(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Run(args) => run::run(args),
+        Command::Plot(args) => plot::plot(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),

@@ -30,6 +30,7 @@ mod class;
 mod error;
 mod shapes;
 
+pub use axes::ticks;
 pub use class::Class;
 pub use error::FigureError;
 
@@ -223,7 +224,11 @@ pub fn figures_folder() -> PathBuf {
 }
 
 /// The text with the five characters replaced that mean something in XML.
-fn escaped(text: &str) -> String {
+///
+/// ```
+/// assert_eq!(shoal_interval::figure::escaped("a < b & c"), "a &lt; b &amp; c");
+/// ```
+pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

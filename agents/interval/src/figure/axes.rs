@@ -6,14 +6,14 @@ use crate::interval_box::IntervalBox;
 use std::fmt::Write as _;
 
 /// No more ticks than this on an axis.
-const MOST_TICKS: f64 = 10.0;
+const MOST_TICKS: usize = 10;
 
 /// Writes the frame around what is shown, whose place is `[left, top, width, height]` in pixels.
 pub(super) fn write(svg: &mut String, view: &IntervalBox<2>, place: [f64; 4], labels: &[String; 2]) {
     let [left, top, width, height] = place;
     let bottom = top + height;
     let _ = writeln!(svg, r#"<rect class="frame" x="{left}" y="{top}" width="{width}" height="{height}"/>"#);
-    for (value, text) in ticks(view[0]) {
+    for (value, text) in ticks(view[0], MOST_TICKS) {
         let x = left + (value - view[0].lower()) / (view[0].upper() - view[0].lower()) * width;
         let _ = writeln!(
             svg,
@@ -21,7 +21,7 @@ pub(super) fn write(svg: &mut String, view: &IntervalBox<2>, place: [f64; 4], la
             bottom + 18.0
         );
     }
-    for (value, text) in ticks(view[1]) {
+    for (value, text) in ticks(view[1], MOST_TICKS) {
         let y = top + (view[1].upper() - value) / (view[1].upper() - view[1].lower()) * height;
         let _ = writeln!(
             svg,
@@ -44,14 +44,27 @@ pub(super) fn write(svg: &mut String, view: &IntervalBox<2>, place: [f64; 4], la
     );
 }
 
-/// Round numbers along an axis with their texts: multiples of 1, 2 or 5 times a power of ten.
-fn ticks(side: Interval) -> Vec<(f64, String)> {
-    let (step, decimals) = step(side.upper() - side.lower());
+/// Round numbers along an axis with their texts, to place ticks at: multiples of 1, 2 or 5 times a power of ten, `most` or
+/// fewer. None along an axis that is empty, unbounded or a point.
+///
+/// ```
+/// use shoal_interval::Interval;
+/// use shoal_interval::figure::ticks;
+/// let texts = |ticks: Vec<(f64, String)>| ticks.into_iter().map(|(_, text)| text).collect::<Vec<_>>();
+/// assert_eq!(texts(ticks(Interval::new(-0.3, 1.1)?, 4)), ["0.0", "0.5", "1.0"]);
+/// # Ok::<(), shoal_interval::IntervalError>(())
+/// ```
+pub fn ticks(side: Interval, most: usize) -> Vec<(f64, String)> {
+    let length = side.upper() - side.lower();
+    if !(length > 0.0 && length.is_finite() && most > 0) {
+        return Vec::new();
+    }
+    let (step, decimals) = step(length, most as f64);
     let (first, last) = ((side.lower() / step).ceil(), (side.upper() / step).floor());
     let mut ticks = Vec::new();
     let mut multiple = first;
     // Far from zero a step may vanish in rounding; the limit ends the loop then.
-    while multiple <= last && ticks.len() <= MOST_TICKS as usize + 1 {
+    while multiple <= last && ticks.len() <= most {
         // Adding zero turns a negative zero into a plain one.
         let value = multiple * step + 0.0;
         ticks.push((value, format!("{value:.decimals$}")));
@@ -61,16 +74,16 @@ fn ticks(side: Interval) -> Vec<(f64, String)> {
 }
 
 /// The smallest round step with few enough ticks over `length`, and how many decimals it takes to write.
-fn step(length: f64) -> (f64, usize) {
+fn step(length: f64, most: f64) -> (f64, usize) {
     let mut decimals = 0;
     let mut power = 1.0;
-    while power * MOST_TICKS > length && decimals < 300 {
+    while power * most > length && decimals < 300 {
         power /= 10.0;
         decimals += 1;
     }
     loop {
         for factor in [1.0, 2.0, 5.0] {
-            if factor * power * MOST_TICKS >= length {
+            if factor * power * most >= length {
                 return (factor * power, decimals);
             }
         }

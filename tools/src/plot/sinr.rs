@@ -1,0 +1,76 @@
+//! How far packets stand out of noise and interference, over range.
+
+use std::collections::BTreeMap;
+
+use shoal_bus::record::rows::{PingRow, ReceptionRow};
+use shoal_bus::record::{RecordHeader, Row, Topic};
+
+use super::Plot;
+use super::fate::Fate;
+use super::thinned::Thinned;
+use crate::figure::{Axis, Entry, Figure, Layer, Panel, Sample};
+
+/// Range and ratio of every packet that arrived.
+#[derive(Default)]
+pub struct Sinr {
+    /// By fate: range in metres, ratio in dB.
+    series: BTreeMap<Fate, Thinned>,
+    /// Receptions without a ratio.
+    unknown: u64,
+}
+
+impl Plot for Sinr {
+    fn topics(&self) -> &'static [Topic] {
+        &[Topic::Pings]
+    }
+
+    fn take(&mut self, row: &Row) {
+        let Row::Ping(row) = row else { return };
+        let (PingRow::Heard { range_m, reception, .. } | PingRow::Lost { range_m, reception, .. }) = row
+        else {
+            return;
+        };
+        match (Fate::of(row), reception) {
+            (Some(fate), Some(ReceptionRow { sinr_db, .. })) if sinr_db.0.is_finite() => {
+                self.series.entry(fate).or_default().push([range_m.0, sinr_db.0]);
+            }
+            (Some(_), _) => self.unknown += 1,
+            (None, _) => {}
+        }
+    }
+
+    fn figure(self: Box<Self>, _: &RecordHeader) -> Result<Figure, String> {
+        let unknown = self.unknown;
+        if self.series.is_empty() {
+            return Err(format!(
+                "nothing to show: none of {unknown} receptions has a ratio of signal to noise; there is one at level `sea`"
+            ));
+        }
+        let mut farthest_m = 0.0_f64;
+        let (mut least_db, mut greatest_db) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut layers, mut legend) = (Vec::new(), Vec::new());
+        for (fate, series) in &self.series {
+            for [range_m, sinr_db] in series.points() {
+                farthest_m = farthest_m.max(*range_m);
+                least_db = least_db.min(*sinr_db);
+                greatest_db = greatest_db.max(*sinr_db);
+            }
+            let mark = fate.mark();
+            legend.push(Entry::new(Sample::Mark(mark), series.legend(fate.name())));
+            layers.push(Layer::Marks { mark, points: series.points().to_vec() });
+        }
+        legend.push(Entry::remark(format!("without a ratio, not drawn: {unknown}")));
+        let panel = Panel {
+            width_px: 640.0,
+            x: Axis::from_zero("range (m)", farthest_m),
+            y: Axis::around("signal over noise and interference (dB)", least_db, greatest_db),
+            layers,
+        };
+        Ok(Figure {
+            title: "How far packets stand out of noise and interference".to_owned(),
+            subtitle: String::new(),
+            panels: vec![panel],
+            legend,
+        })
+    }
+}
