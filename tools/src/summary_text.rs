@@ -60,6 +60,10 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         ("noise", lost.noise),
         ("collision", lost.collision),
         ("half duplex", lost.half_duplex),
+        ("shadow", lost.shadow),
+        ("asleep", lost.asleep),
+        ("band", lost.band),
+        ("busy", lost.busy),
         ("late", lost.late),
         ("dead", lost.dead),
     ];
@@ -130,7 +134,7 @@ fn seconds(value: f64) -> String {
 }
 
 /// Thousands apart.
-fn grouped(count: u64) -> String {
+pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
