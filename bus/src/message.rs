@@ -176,7 +176,7 @@ pub struct Orders {
 pub enum Estimator {
     /// The state tube: guaranteed, contracted by every measurement, `horizon_ns` of it remembered.
     Tube {
-        /// Local nanoseconds of the past that are kept.
+        /// Local nanoseconds of the past that are kept. What is told later than that is ignored, so no packet may take longer.
         horizon_ns: i64,
     },
 }

@@ -62,24 +62,23 @@ pub struct Summary {
 pub struct Containment {
     /// Enclosures compared with the truth.
     pub checks: u64,
-    /// Those that did not hold it.
+    /// Those that did not hold it, though nobody had told the AUV anything false.
     pub violations: u64,
     /// The first ten of them.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub first: Vec<ViolationLine>,
-    /// AUVs that heard an outlier, or a ping of such an AUV: what they state is counted apart.
+    /// AUVs that lost the truth after they had heard something false: counted apart.
     #[serde(default)]
     pub misled: Misled,
 }
 
-/// What AUVs state that were misled by an outlier, directly or through others: no promise covers it.
+/// What AUVs stated that had heard something false before: a ping that came the long way round (an outlier), or one whose
+/// payload did not hold the truth. No promise covers that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Misled {
-    /// How many AUVs were, at the end of the run.
+    /// How many AUVs.
     pub auvs: u32,
-    /// Enclosures of theirs compared with the truth; not among [`Containment::checks`].
-    pub checks: u64,
-    /// Those that did not hold it.
+    /// Enclosures of theirs that did not hold the truth, or emptied; not among [`Containment::violations`].
     pub violations: u64,
 }
 

@@ -1,11 +1,11 @@
-//! The tables `kind` and `clock`: what a body can do and how its clock runs, by name or in full.
+//! What a group may name or spell out: what its body can do, how its clock runs, what it senses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use toml::de::DeValue;
 
 use crate::TABLES_MAX;
-use crate::model::{Clock, Kind};
+use crate::model::{Clock, Kind, Sensors};
 use crate::number::Rule;
 use crate::presets::{CLOCK_DEFAULT, CLOCKS, KIND_DEFAULT, KINDS};
 use crate::reader::{Table, Value};
@@ -27,8 +27,25 @@ pub(crate) struct Catalogue<T> {
     by_name: BTreeMap<String, Option<T>>,
 }
 
+/// All that a group may name.
+pub(crate) struct Catalogues {
+    pub(crate) kinds: Catalogue<Kind>,
+    pub(crate) clocks: Catalogue<Clock>,
+    pub(crate) sensors: Catalogue<Sensors>,
+}
+
+impl Catalogues {
+    pub(crate) fn read(document: &Table<'_>) -> Self {
+        Self {
+            kinds: Catalogue::read(document),
+            clocks: Catalogue::read(document),
+            sensors: Catalogue::read(document),
+        }
+    }
+}
+
 impl<T: Named> Catalogue<T> {
-    /// The presets and what the document defines in `[kind.NAME]` or `[clock.NAME]`.
+    /// The presets and what the document defines in `[kind.NAME]`, `[clock.NAME]` or `[sensors.NAME]`.
     pub(crate) fn read(document: &Table<'_>) -> Self {
         let presets = T::PRESETS.iter().map(|(name, preset)| (name.to_string(), Some(preset.clone())));
         let mut catalogue = Self { by_name: presets.collect() };

@@ -5,17 +5,9 @@ use toml::de::DeValue;
 use crate::environment::norm;
 use crate::model::{CurrentField, Environment, Vec3};
 use crate::number::Rule;
-use crate::reader::{Table, TextOrTable};
+use crate::reader::Table;
 
-const FIELDS: &[(&str, FieldName)] =
-    &[("uniform", FieldName::Uniform), ("shear", FieldName::Shear), ("vortex", FieldName::Vortex)];
-
-#[derive(Clone, Copy)]
-enum FieldName {
-    Uniform,
-    Shear,
-    Vortex,
-}
+const FIELDS: [&str; 3] = ["uniform", "shear", "vortex"];
 
 pub(crate) fn current_field(environment: &Table<'_>) -> Option<CurrentField> {
     const KEY: &str = "current_field";
@@ -23,40 +15,37 @@ pub(crate) fn current_field(environment: &Table<'_>) -> Option<CurrentField> {
         environment.get(KEY);
         return Some(CurrentField::Uniform);
     }
-    let table = match environment.text_or_table(KEY, "[environment.current_field]")? {
-        TextOrTable::Table(table) => table,
-        TextOrTable::Text(name) => {
-            return match environment.chosen(KEY, name, FIELDS)? {
-                FieldName::Uniform => Some(CurrentField::Uniform),
-                FieldName::Shear | FieldName::Vortex => {
-                    environment.refuse(
-                        KEY,
-                        format!("the current field `{name}` needs more than its name"),
-                        "needs a table",
-                        match name {
-                            "vortex" => {
-                                "write `current_field = { name = \"vortex\", centre_m = [500, 500], core_radius_m = 100, \
-                                 speed_m_s = 0.3 }`"
-                            }
-                            _ => {
-                                "write `current_field = { name = \"shear\", surface_m_s = [0.4, 0, 0], \
-                                 deep_m_s = [0, 0, 0], depth_m = 50 }`"
-                            }
-                        },
-                    );
-                    None
-                }
-            };
+    let (name, table) = environment.name_or_table(KEY, "[environment.current_field]")?;
+    if !FIELDS.contains(&name) {
+        let span = table.as_ref().map_or(environment.span(KEY), |table| table.span("name"));
+        environment.unknown_name(span, KEY, name, FIELDS.into_iter());
+        return None;
+    }
+    let Some(table) = table else {
+        if name == "uniform" {
+            return Some(CurrentField::Uniform);
         }
-    };
-    let Some(name) = table.text("name", None) else {
-        table.report_missing();
+        environment.refuse(
+            KEY,
+            format!("the current field `{name}` needs more than its name"),
+            "needs a table",
+            match name {
+                "vortex" => {
+                    "write `current_field = { name = \"vortex\", centre_m = [500, 500], core_radius_m = 100, \
+                     speed_m_s = 0.3 }`"
+                }
+                _ => {
+                    "write `current_field = { name = \"shear\", surface_m_s = [0.4, 0, 0], deep_m_s = [0, 0, 0], \
+                     depth_m = 50 }`"
+                }
+            },
+        );
         return None;
     };
-    let field = match table.chosen("name", name, FIELDS)? {
-        FieldName::Uniform => Some(CurrentField::Uniform),
-        FieldName::Shear => shear(&table),
-        FieldName::Vortex => vortex(&table),
+    let field = match name {
+        "shear" => shear(&table),
+        "vortex" => vortex(&table),
+        _ => Some(CurrentField::Uniform),
     };
     table.finish();
     field

@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::body::Catalogue;
+use crate::body::Catalogues;
 use crate::current::fastest_current_m_s;
 use crate::diagnostics::{Findings, ScenarioErrors};
 use crate::environment::{environment, norm};
@@ -102,8 +102,7 @@ fn read(table: Table<'_>) -> Option<Scenario> {
 }
 
 fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupRead> {
-    let kinds = Catalogue::read(document);
-    let clocks = Catalogue::read(document);
+    let named = Catalogues::read(document);
     let listed: Option<&DeArray<'_>> = match document.get("group").map(Spanned::get_ref) {
         Some(DeValue::Array(listed)) if listed.len() > TABLES_MAX => {
             document.refuse(
@@ -149,7 +148,7 @@ fn groups(document: &Table<'_>, environment: Option<&Environment>) -> Vec<GroupR
     }
     let names = group_names(&tables);
     let auvs = auvs_written(&tables);
-    tables.into_iter().map(|table| group(table, &kinds, &clocks, environment, &names, auvs)).collect()
+    tables.into_iter().map(|table| group(table, &named, environment, &names, auvs)).collect()
 }
 
 /// The number of AUVs, when all groups have one and the sum is not too large.

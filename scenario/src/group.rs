@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use toml::de::DeValue;
 
-use crate::body::Catalogue;
+use crate::body::Catalogues;
 use crate::environment::norm;
-use crate::model::{AuvSabotage, Clock, Environment, Group, Kind};
+use crate::model::{AuvSabotage, Environment, Group};
 use crate::modem::{Surroundings as ModemSurroundings, modem};
 use crate::reader::Table;
-use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS, sensors};
+use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS};
 use crate::start::start;
 use crate::steering::{Surroundings, controller, estimator};
 use crate::{AUVS_MAX, window_limit_ns};
@@ -35,8 +35,7 @@ pub(crate) struct GroupRead {
 
 pub(crate) fn group(
     table: Table<'_>,
-    kinds: &Catalogue<Kind>,
-    clocks: &Catalogue<Clock>,
+    named: &Catalogues,
     environment: Option<&Environment>,
     group_names: &[&str],
     auvs: Option<u32>,
@@ -44,11 +43,11 @@ pub(crate) fn group(
     let name = table.text("name", None).filter(|name| name_is_good(&table, "name", name));
     let count =
         table.whole("count", None, 1, u64::from(AUVS_MAX)).and_then(|count| u32::try_from(count).ok());
-    let kind = kinds.of_group(&table);
-    let clock = clocks.of_group(&table);
+    let kind = named.kinds.of_group(&table);
+    let clock = named.clocks.of_group(&table);
     let control_period_ns = control_period(&table);
     let reaction_ns = table.time_ns("reaction_s", Some(TENTH_NS), PERIOD_MIN_NS);
-    let sensors = sensors(&table);
+    let sensors = named.sensors.of_group(&table);
     let modem = modem(&table, &ModemSurroundings { environment, auvs });
     let estimator = estimator(&table);
     let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });

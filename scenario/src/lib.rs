@@ -87,27 +87,52 @@
 //! | `count` | | needed | how many; [`AUVS_MAX`] in all |
 //! | `kind` | | `"lauv"` | body: one of [`presets::KINDS`], of one's own, or a table |
 //! | `clock` | | `"tcxo"` | clock: one of [`presets::CLOCKS`], of one's own, or a table |
+//! | `sensors` | | `"nominal"` | what it senses: one of [`presets::SENSORS`], of one's own, or a table |
 //! | `control_period_s` | s | 0.1 | between control ticks, in local time; 0.001 to 1000 |
 //! | `reaction_s` | s | 0.1 | from a tick to when its answer takes effect, in local time |
 //! | `estimator` | | `"tube"` | name, or table with `name` |
 //! | `estimator.horizon_s` | s | 10 | past that the tube keeps, in local time |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
 //! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
-//! | **`[group.sensors]`** | | | |
+//! | **`[sensors.NAME]`, `[group.sensors]`** | | | sensors of one's own |
+//! | `like` | | `"nominal"` | preset or other sensors that fill in what is not said; defaults below are those of `"nominal"` |
 //! | `heading_error_rad`, `pitch_error_rad` | rad | 0.01 | errors of the compass |
-//! | `speed_error_m_s` | m/s | 0.02 | error of the log |
+//! | `speed_error_m_s` | m/s | 0.02 | error of the log: speed through the water |
 //! | `depth_error_m` | m | 0.1 | error of the depth; `false` for none |
-//! | `gnss` | | `false` | a table for a satellite receiver: |
+//! | `dvl` | | `false` | Doppler velocity log: one of [`presets::DVLS`], or a table: |
+//! | `dvl.altitude_max_m` | m | needed | sees the bottom up to this height above it |
+//! | `dvl.velocity_error_m_s` | m/s | needed | error of the velocity over ground, per axis of the body |
+//! | `gnss` | | `false` | satellite receiver: one of [`presets::GNSS`], or a table: |
 //! | `gnss.depth_max_m` | m | 1 | works above this depth |
 //! | `gnss.period_s` | s | 1 | between fixes, in local time |
 //! | `gnss.position_error_m` | m | `[1, 1, 1]` | error per axis |
 //! | `gnss.time_error_s` | s | 1e-6 | error of the time |
-//! | **`[group.modem]`** | | | |
-//! | `range_m` | m | 500 | others hear it so far |
-//! | `ping_period_s` | s | 1 | between pings, in local time; `false` for a silent AUV |
-//! | `ping_phase_s` | s | drawn | local time of the first ping |
+//! | **`[group.modem]`** | | | or `modem = "NAME"`: one of [`presets::MODEMS`] |
+//! | `like` | | `"ideal"` | preset that fills in what is not said; the defaults below are those of `"ideal"` |
+//! | `range_m` | m | 500 | others hear it so far; only at level `"ideal"` |
+//! | `ping_period_s` | s | 1 | between pings, in local time; with `"aloha"` their mean; `false` for a silent AUV |
+//! | `ping_phase_s` | s | drawn | local time of the first ping; only with `"periodic"` |
 //! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
-//! | `frame_bytes` | | 64 | bytes that one ping may have; 32 at least |
+//! | `frame_bytes` | | 64 | bytes that one ping may have: [`PING_BYTES`] to [`FRAME_BYTES_MAX`] |
+//! | `addresses` | | none | so many devices can be told apart: a run with more is warned of |
+//! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, or a table with the `name` `"slotted"` or `"csma"` |
+//! | `access.slot_s` | s | needed | `"slotted"`: length of a slot, in true time; holds a packet and its way to the guard range |
+//! | `access.slots` | | all AUVs | `"slotted"`: slots in a frame; AUV i has slot i modulo this |
+//! | `access.guard_range_m` | m | diagonal of the area | `"slotted"`: slots do not overlap for receivers up to this far away |
+//! | `access.listen_s` | s | needed | `"csma"`: the medium must have been quiet for so long, in local time |
+//! | `access.backoff_s` | s | needed | `"csma"`: mean time until a ping that was held back is tried again, in local time |
+//! | `duty_cycle` | | always awake | when it listens, as a table: |
+//! | `duty_cycle.period_s` | s | needed | it wakes so often, in local time |
+//! | `duty_cycle.awake_s` | s | needed | and listens for so long; a packet at least |
+//! | `source_level_db` | dB re 1 µPa at 1 m | needed | from here on, the physical layer: what level `"sea"` needs, and `"ideal"` ignores |
+//! | `centre_hz` | Hz | needed | centre of the band |
+//! | `bandwidth_hz` | Hz | needed | width of the band |
+//! | `bit_rate_bit_s` | bit/s | needed | bits of a packet per second |
+//! | `preamble_s` | s | 0 | what precedes the bits of a packet |
+//! | `modulation` | | `"bpsk"` | `"bpsk"` or `"fsk"`, see [`Modulation`] |
+//! | `coding_gain_db` | dB | 0 | what coding saves of Eb/N0 |
+//! | `detection_threshold_db` | dB | 0 | a packet is noticed from this signal to noise and interference on |
+//! | `capture_db` | dB | 6 | a later packet takes over when it is louder by so much |
 //! | **`[group.start]`** | | | |
 //! | `region_m` | m | the area | places are drawn in this region |
 //! | `points_m` | m | | one place for each AUV, instead |
@@ -156,6 +181,7 @@ mod sound_speed;
 mod start;
 mod steering;
 mod time;
+mod warnings;
 
 pub use diagnostics::{Diagnostic, SHOWN_ERRORS_MAX, ScenarioErrors};
 pub use document::parse;
@@ -163,11 +189,12 @@ pub use library::{LibraryEntry, LoadError, library, load};
 pub use model::*;
 pub use overrides::{OverrideError, Overrides};
 pub use packet::{FRAME_BYTES_MAX, PING_BYTES};
+pub use warnings::Warning;
 
 /// Most AUVs that a run can have.
 pub const AUVS_MAX: u32 = 65_536;
 
-/// Most groups, kinds and clocks that one scenario can have, each.
+/// Most groups, kinds, clocks and suites of sensors that one scenario can have, each.
 pub const TABLES_MAX: usize = 1024;
 
 /// Longest lockstep window in nanoseconds of true time: no AUV with this reaction time and clock can act on what happens

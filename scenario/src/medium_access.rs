@@ -2,16 +2,15 @@
 
 use crate::AUVS_MAX;
 use crate::environment::norm;
-use crate::model::{Environment, Level, MediumAccess, PhysicalLayer, SoundSpeed};
-use crate::modem::{Surroundings, in_seconds, packet_arithmetic, packet_ns, rounded_up};
+use crate::model::{Environment, Level, MediumAccess, PhysicalLayer};
+use crate::modem::{Surroundings, in_seconds, packet_arithmetic, packet_ns, rounded, rounded_up};
 use crate::number::Rule;
 use crate::packet::PING_BYTES;
 use crate::reader::Table;
 use crate::sensing::PERIOD_MIN_NS;
+use crate::sound_speed::slowest_m_s;
 
 const NAMES: [&str; 4] = ["periodic", "aloha", "slotted", "csma"];
-/// No sea is slower: fresh water at 0 degrees C has 1402 m/s.
-const SLOWEST_SEA_M_S: f64 = 1400.0;
 
 /// `packet` is the physical layer where packets take time.
 pub(crate) fn medium_access(
@@ -177,35 +176,30 @@ fn holds_a_packet(
     if slot_ns >= (needed_s * 1e9).round() as i64 {
         return;
     }
-    let way = format!("{guard_range_m:.0} m / ({slowest_m_s} m/s)");
+    let way = format!("{} m / ({slowest_m_s} m/s)", rounded(guard_range_m, 2));
     let arithmetic = match packet {
-        Some(layer) => format!("{} s + {way}", rounded_up(layer.packet_s(PING_BYTES))),
+        Some(layer) => format!("{} s + {way}", rounded(layer.packet_s(PING_BYTES), 4)),
         None => way,
     };
     let what = if packet.is_some() { "a packet and its way" } else { "the way of sound" };
-    let needed_s = rounded_up(needed_s);
     table.refuse(
         "slot_s",
         format!(
-            "a slot of {} s is shorter than {what} to the guard range: {arithmetic} = {needed_s} s",
-            in_seconds(slot_ns)
+            "a slot of {} s is shorter than {what} to the guard range: {arithmetic} = {} s",
+            in_seconds(slot_ns),
+            rounded(needed_s, 4)
         ),
         "runs into the next slot",
-        format!("write `slot_s = {needed_s}` or more, or a shorter `guard_range_m`"),
+        format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s)),
     );
 }
 
 /// No sound in this water is slower, in m/s.
 fn slowest_sound_m_s(environment: &Environment) -> f64 {
+    let uniform_m_s = environment.sound_speed_m_s;
     let stated_m_s = match &environment.level {
-        Level::Ideal => environment.sound_speed_m_s,
-        Level::Sea(sea) => match &sea.sound_speed {
-            SoundSpeed::Uniform => environment.sound_speed_m_s,
-            SoundSpeed::Speeds { speeds_m_s, .. } => {
-                speeds_m_s.iter().copied().fold(environment.sound_speed_m_s, f64::min)
-            }
-            SoundSpeed::Named(_) | SoundSpeed::Water { .. } => SLOWEST_SEA_M_S,
-        },
+        Level::Ideal => uniform_m_s,
+        Level::Sea(sea) => slowest_m_s(&sea.sound_speed, uniform_m_s),
     };
     stated_m_s - environment.sound_speed_error_m_s
 }

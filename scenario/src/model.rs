@@ -126,6 +126,7 @@ pub enum CurrentField {
 /// How real sound is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[expect(clippy::large_enum_variant, reason = "a scenario has one")]
 pub enum Level {
     /// Constant speed, sharp range limit, no noise and no packets.
     Ideal,
@@ -246,6 +247,10 @@ pub struct Bottom {
 }
 
 /// How the level of a packet fluctuates around what distance makes of it.
+///
+/// A scenario that does not say it has Rician fading with a steady part of 6 dB, one draw for each packet: bounces off
+/// surface and bottom are paths of their own, so that what is left to fade on each path is the little that is scattered
+/// around it; and a packet is over before the waves that scatter it have changed much. Our own round figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Fading {
     /// With which distribution.

@@ -41,14 +41,7 @@ pub(crate) fn modem(group: &Table<'_>, around: &Surroundings<'_>) -> Option<Mode
         Some((_, DeValue::String(name))) => (bare(), preset(group, "modem", name)),
         Some((value, DeValue::Table(entries))) => {
             let table = Table::new(entries, value.span(), "[group.modem]", group.findings);
-            let like = match table.get("like").map(|value| (value, value.get_ref())) {
-                None => Some(&IDEAL),
-                Some((_, DeValue::String(name))) => preset(&table, "like", name),
-                Some((value, _)) => {
-                    table.wrong_type_as("like", value, "a name", "like = \"micromodem-psk\"");
-                    None
-                }
-            };
+            let like = table.text("like", Some(IDEAL.name)).and_then(|name| preset(&table, "like", name));
             (table, like)
         }
         Some((value, _)) => {
@@ -86,7 +79,7 @@ fn in_full(table: &Table<'_>, like: &Modem, around: &Surroundings<'_>) -> Option
     // At level `ideal` a packet takes no time, so that anything is long enough for it.
     let at_sea = around.environment.is_some_and(|environment| environment.level != Level::Ideal);
     if at_sea {
-        needs_the_sea(table, physical.as_ref());
+        fits_the_sea(table, like.name, physical.as_ref());
     }
     let packet = physical.flatten().filter(|_| at_sea);
     let duty_cycle = duty_cycle(table, like.duty_cycle, packet.as_ref());
@@ -185,12 +178,12 @@ fn band_is_above_zero(table: &Table<'_>, layer: &PhysicalLayer) -> bool {
 }
 
 /// What only level `sea` asks of a modem.
-fn needs_the_sea(table: &Table<'_>, physical: Option<&Option<PhysicalLayer>>) {
+fn fits_the_sea(table: &Table<'_>, name: &str, physical: Option<&Option<PhysicalLayer>>) {
     if let Some(None) = physical {
         table.findings.add(
             table.header(),
-            "a modem without a physical layer cannot be heard at level `sea`",
-            "only for level `ideal`",
+            format!("the modem `{name}` has no physical layer, without which nobody hears it at level `sea`"),
+            format!("`{name}` unless another is named"),
             "choose one such as `modem = \"micromodem-psk\"`, or write `source_level_db`, `centre_hz`, `bandwidth_hz` \
              and `bit_rate_bit_s`",
         );
@@ -266,7 +259,7 @@ pub(crate) fn packet_arithmetic(layer: &PhysicalLayer) -> String {
         layer.preamble_s,
         8 * PING_BYTES,
         layer.bit_rate_bit_s,
-        rounded_up(layer.packet_s(PING_BYTES))
+        rounded(layer.packet_s(PING_BYTES), 4)
     )
 }
 
@@ -278,4 +271,10 @@ pub(crate) fn in_seconds(ns: i64) -> f64 {
 /// Seconds with four decimals, rounded up but for what binary numbers add.
 pub(crate) fn rounded_up(seconds: f64) -> f64 {
     (seconds * 1e4 - 1e-6).ceil() / 1e4
+}
+
+/// The number with at most so many decimals, and no zeros at its end.
+pub(crate) fn rounded(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }

@@ -1,6 +1,6 @@
 //! What the command line changes in a scenario.
 
-use crate::model::{Noise, Place, Scenario, WaterSabotage};
+use crate::model::{MediumAccess, Noise, Place, Scenario, WaterSabotage};
 use crate::time::{NotWhole, ms_text, ns_of_decimal};
 use crate::{AUVS_MAX, window_limit_ns};
 
@@ -85,7 +85,7 @@ impl Overrides {
     /// The scenario with these changes.
     ///
     /// `--auvs` shares the AUVs among the groups in proportion to their counts by largest remainder, at least one
-    /// each; among equal remainders the earlier group goes first.
+    /// each; among equal remainders the earlier group goes first. A frame that has one slot for each AUV keeps to that.
     ///
     /// # Errors
     /// [`OverrideError`] when the changed scenario could not run; it names the flag.
@@ -163,6 +163,7 @@ fn rescale(scenario: &mut Scenario, auvs: u32) -> Result<(), OverrideError> {
     {
         return Err(OverrideError::SabotagedAuvGone { auvs, auv });
     }
+    let auvs_before = scenario.auv_count();
     let counts = shares(&scenario.groups.iter().map(|group| group.count).collect::<Vec<_>>(), auvs);
     for (group, count) in scenario.groups.iter_mut().zip(counts) {
         if let Place::Points(points) = &group.start.place
@@ -176,6 +177,11 @@ fn rescale(scenario: &mut Scenario, auvs: u32) -> Result<(), OverrideError> {
             });
         }
         group.count = count;
+        if let MediumAccess::Slotted { slots, .. } = &mut group.modem.access
+            && *slots == auvs_before
+        {
+            *slots = auvs;
+        }
     }
     Ok(())
 }

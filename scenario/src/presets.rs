@@ -1,13 +1,16 @@
-//! Bodies, clocks, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or `modem = "popoto"` is
-//! here and nowhere else.
+//! Bodies, clocks, sensors, modems and sea floors by name. What a scenario file calls `kind = "lauv"`, `clock = "tcxo"` or
+//! `modem = "popoto"` is here and nowhere else.
 
 mod budget;
 mod modem;
+mod sensors;
 
 pub use budget::{BUDGET_SHIPPING, BUDGET_WIND_M_S, BUDGETS, Budget};
 pub use modem::{
     EVOLOGICS_18_34, IDEAL, MICROMODEM_FSK, MICROMODEM_PSK, MODEM_DEFAULT, MODEMS, POPOTO, SEATRAC,
 };
+pub(crate) use sensors::NOMINAL;
+pub use sensors::{DVLS, GNSS, SENSORS, SENSORS_DEFAULT};
 
 use crate::model::{Bottom, Clock, Kind};
 
@@ -22,7 +25,8 @@ const DISTURBANCE_M_S: [f64; 3] = [0.05, 0.05, 0.02];
 /// Bodies by name.
 ///
 /// Lengths and greatest speeds are the makers' published figures, rounded. Makers do not publish accelerations, rates of
-/// turn and the pitch that the controller allows: those are our own round estimates for bodies of that size.
+/// turn and the pitch that the controller allows: those are our own round estimates for bodies of that size. Bodies that
+/// hover climb without pitching, but a kind has one greatest speed for all directions: theirs is that ahead.
 pub const KINDS: &[(&str, Kind)] = &[
     // OceanScan-MST LAUV, data sheet: 1.8 to 2.5 m depending on payload, up to 5 knots.
     (
@@ -60,6 +64,91 @@ pub const KINDS: &[(&str, Kind)] = &[
             length_m: 1.5,
         },
     ),
+    // REMUS 600, data sheet: 3.25 m, up to 5 knots.
+    (
+        "remus-600",
+        Kind {
+            speed_max_m_s: 2.5,
+            acceleration_max_m_s2: 0.2,
+            turn_rate_max_rad_s: 0.2,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 3.25,
+        },
+    ),
+    // Iver3, OceanServer data sheet: 1.5 to 2.2 m depending on payload, 1 to 4 knots.
+    (
+        "iver3",
+        Kind {
+            speed_max_m_s: 2.0,
+            acceleration_max_m_s2: 0.3,
+            turn_rate_max_rad_s: 0.35,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 1.9,
+        },
+    ),
+    // YSI EcoMapper, data sheet: an Iver2 of 1.5 m, 1 to 4 knots.
+    (
+        "ecomapper",
+        Kind {
+            speed_max_m_s: 2.0,
+            acceleration_max_m_s2: 0.3,
+            turn_rate_max_rad_s: 0.35,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 1.5,
+        },
+    ),
+    // Kongsberg HUGIN 1000, data sheet: 4.5 m, 2 to 6 knots.
+    (
+        "hugin",
+        Kind {
+            speed_max_m_s: 3.0,
+            acceleration_max_m_s2: 0.15,
+            turn_rate_max_rad_s: 0.15,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 4.5,
+        },
+    ),
+    // Sparus II, Carreras et al., IEEE J. Oceanic Eng. 43 (2018), and data sheet: 1.6 m, 3 to 4 knots; hovers.
+    (
+        "sparus-ii",
+        Kind {
+            speed_max_m_s: 2.0,
+            acceleration_max_m_s2: 0.3,
+            turn_rate_max_rad_s: 0.5,
+            pitch_max_rad: 0.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 1.6,
+        },
+    ),
+    // Blue Robotics BlueROV2, data sheet: 0.457 m, 1.5 m/s (3 knots) ahead; hovers.
+    (
+        "bluerov2",
+        Kind {
+            speed_max_m_s: 1.5,
+            acceleration_max_m_s2: 0.5,
+            turn_rate_max_rad_s: 1.0,
+            pitch_max_rad: 1.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 0.46,
+        },
+    ),
+    // CISCREA, the vehicle of the sea trials of seed 001 (figure 5.10); Yang et al., J. Intell. Robot. Syst. 80 (2015): 0.525 m,
+    // 2 knots ahead, 1 knot up and sideways; hovers.
+    (
+        "ciscrea",
+        Kind {
+            speed_max_m_s: 1.0,
+            acceleration_max_m_s2: 0.2,
+            turn_rate_max_rad_s: 0.6,
+            pitch_max_rad: 1.5,
+            disturbance_m_s: DISTURBANCE_M_S,
+            length_m: 0.53,
+        },
+    ),
 ];
 
 /// Clocks by name. Half of each bound is a constant rate error, half wanders; they start synchronised.
@@ -70,7 +159,10 @@ pub const CLOCKS: &[(&str, Clock)] = &[
     ("quartz", Clock { drift_bound: 5e-5, wander_fraction: 0.5, offset_bound_s: 0.0 }),
     // Temperature-compensated quartz: 1 ppm, the usual grade of data loggers.
     ("tcxo", Clock { drift_bound: 1e-6, wander_fraction: 0.5, offset_bound_s: 0.0 }),
-    // Chip-scale atomic clock, Microchip SA.45s data sheet: some 1e-10, after warming up and without ageing.
+    // Quartz in an oven, Isotemp 143 data sheet: ageing of up to 1e-7 a year, beside which temperature is little.
+    ("ocxo", Clock { drift_bound: 1e-7, wander_fraction: 0.5, offset_bound_s: 0.0 }),
+    // Chip-scale atomic clock, Microchip SA.45s data sheet: some 1e-10 after warming up, at a steady temperature and soon
+    // after calibration. Its whole range of temperatures adds up to 5e-10, a month of ageing up to 9e-10.
     ("csac", Clock { drift_bound: 1e-10, wander_fraction: 0.5, offset_bound_s: 0.0 }),
 ];
 

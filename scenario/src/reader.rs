@@ -134,22 +134,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The table under `key`, which errors call `name`, or the text when there is only that.
-    pub(crate) fn text_or_table(&self, key: &'static str, name: &str) -> Option<TextOrTable<'t>> {
-        let value = self.get(key)?;
-        match value.get_ref() {
-            DeValue::String(text) => Some(TextOrTable::Text(text.as_ref())),
-            DeValue::Table(entries) => {
-                Some(TextOrTable::Table(Table::new(entries, value.span(), name, self.findings)))
-            }
-            _ => {
-                self.wrong_type(key, value, "a name or a table");
-                None
-            }
-        }
-    }
-
-    /// What has a name under `key`: the name alone, or a table with a `name` and more, called `title`.
+    /// What has a name under `key`: the name alone, or a table with a `name` and more, which errors call `title`.
     pub(crate) fn name_or_table(
         &self,
         key: &'static str,
@@ -166,6 +151,21 @@ impl<'t> Table<'t> {
             }
             _ => {
                 self.wrong_type(key, value, "a name or a table with a name");
+                None
+            }
+        }
+    }
+
+    /// The table under `key`, which errors call `name`, or the text when there is only that.
+    pub(crate) fn text_or_table(&self, key: &'static str, name: &str) -> Option<TextOrTable<'t>> {
+        let value = self.get(key)?;
+        match value.get_ref() {
+            DeValue::String(text) => Some(TextOrTable::Text(text.as_ref())),
+            DeValue::Table(entries) => {
+                Some(TextOrTable::Table(Table::new(entries, value.span(), name, self.findings)))
+            }
+            _ => {
+                self.wrong_type(key, value, "a name or a table");
                 None
             }
         }

@@ -91,23 +91,26 @@ fn profile(table: &Table<'_>) -> Option<SoundSpeed> {
         return None;
     }
     let depths = depths(table);
-    let number_of = |depths: &[Placed]| depths.iter().map(|depth| depth.number).collect();
+    let numbers_of = |column: &[Placed]| column.iter().map(|placed| placed.number).collect();
     if water.is_none() {
         let speeds_m_s = column(table, "speeds_m_s", PLAUSIBLE, depths.as_deref());
         // Known, so that errors list them.
         WATER.into_iter().for_each(|key| _ = table.get(key));
-        return Some(SoundSpeed::Speeds { depths_m: number_of(&depths?), speeds_m_s: speeds_m_s? });
+        return Some(SoundSpeed::Speeds {
+            depths_m: numbers_of(&depths?),
+            speeds_m_s: numbers_of(&speeds_m_s?),
+        });
     }
     table.get("speeds_m_s");
     let temperatures_c = column(table, "temperatures_c", Rule::Within(-3.0, 45.0), depths.as_deref());
     let salinities_psu = column(table, "salinities_psu", Rule::Within(0.0, 45.0), depths.as_deref());
     let formula = table.choice("formula", FORMULAS, FORMULA_DEFAULT);
-    let (depths, formula) = (depths?, formula?);
-    within_reach(table, &depths, formula)?;
-    Some(SoundSpeed::Water {
-        depths_m: number_of(&depths),
-        temperatures_c: temperatures_c?,
-        salinities_psu: salinities_psu?,
+    let (depths, salinities_psu, formula) = (depths?, salinities_psu?, formula?);
+    let within = within_reach(table, &depths, &salinities_psu, formula);
+    within.then_some(SoundSpeed::Water {
+        depths_m: numbers_of(&depths),
+        temperatures_c: numbers_of(&temperatures_c?),
+        salinities_psu: numbers_of(&salinities_psu),
         formula,
     })
 }
@@ -157,7 +160,12 @@ fn depths(table: &Table<'_>) -> Option<Vec<Placed>> {
 }
 
 /// The values under `key`, one for each depth.
-fn column(table: &Table<'_>, key: &'static str, rule: Rule, depths: Option<&[Placed]>) -> Option<Vec<f64>> {
+fn column(
+    table: &Table<'_>,
+    key: &'static str,
+    rule: Rule,
+    depths: Option<&[Placed]>,
+) -> Option<Vec<Placed>> {
     let values = table.numbers(key, rule)?;
     let wanted = depths?.len();
     if values.len() != wanted {
@@ -170,23 +178,45 @@ fn column(table: &Table<'_>, key: &'static str, rule: Rule, depths: Option<&[Pla
         );
         return None;
     }
-    Some(values.into_iter().map(|value| value.number).collect())
+    Some(values)
 }
 
-/// Whether the formula was made for these depths.
-fn within_reach(table: &Table<'_>, depths: &[Placed], formula: SoundSpeedFormula) -> Option<()> {
-    let reach_m = match formula {
-        SoundSpeedFormula::Medwin => 1000.0,
-        SoundSpeedFormula::Mackenzie => 8000.0,
-        SoundSpeedFormula::ChenMillero | SoundSpeedFormula::DelGrosso => return Some(()),
+/// Whether the formula was made for such water. Temperatures are not looked at: the Arctic is colder than any of them, and the
+/// error there is small.
+fn within_reach(
+    table: &Table<'_>,
+    depths: &[Placed],
+    salinities: &[Placed],
+    formula: SoundSpeedFormula,
+) -> bool {
+    let (depth_max_m, salinity_min_psu) = match formula {
+        SoundSpeedFormula::Medwin => (1000.0, 0.0),
+        SoundSpeedFormula::Mackenzie => (8000.0, 0.0),
+        SoundSpeedFormula::ChenMillero => (DEPTH_MAX_M, 0.0),
+        // Fitted from 30 PSU on, and 500 m/s off in fresh water at great depth.
+        SoundSpeedFormula::DelGrosso => (DEPTH_MAX_M, 25.0),
     };
-    let Some(deepest) = depths.last().filter(|deepest| deepest.number > reach_m) else { return Some(()) };
-    table.findings.add_related(
-        deepest.span.clone(),
-        format!("the formula of this profile holds down to {reach_m} m"),
-        "deeper than that",
-        table.has("formula").then(|| (table.span("formula"), "this formula".into())),
-        "write `formula = \"chen-millero\"`, or end the profile there",
-    );
-    None
+    let deep = depths.iter().find(|depth| depth.number > depth_max_m);
+    let fresh = salinities.iter().find(|salinity| salinity.number < salinity_min_psu);
+    let beyond = [
+        (deep, format!("the formula of this profile holds down to {depth_max_m} m"), "deeper than that"),
+        (
+            fresh,
+            format!("the formula of this profile holds from {salinity_min_psu} PSU on"),
+            "fresher than that",
+        ),
+    ];
+    let mut within = true;
+    for (place, cause, label) in beyond {
+        let Some(place) = place else { continue };
+        table.findings.add_related(
+            place.span.clone(),
+            cause,
+            label,
+            table.has("formula").then(|| (table.span("formula"), "this formula".into())),
+            "write `formula = \"chen-millero\"`",
+        );
+        within = false;
+    }
+    within
 }

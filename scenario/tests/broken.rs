@@ -63,6 +63,11 @@ broken! {
     profile_beside_speed: "profile-beside-speed",
     profile_both_ways: "profile-both-ways",
     profile_too_deep: "profile-too-deep",
+    profile_too_fresh: "profile-too-fresh",
     profile_one_depth: "profile-one-depth",
     slow_profile: "slow-profile",
+    modem_unfit: "modem-unfit",
+    modem_impossible: "modem-impossible",
+    modem_unknown: "modem-unknown",
+    access_impossible: "access-impossible",
 }

@@ -15,6 +15,41 @@ impl Draws {
     }
 }
 
+/// All that a file may say about the water and sensors: the library says little of it.
+const SEA: &str = r#"
+name = "sea"
+duration_s = 10
+[environment]
+area_m = [[0, 1000], [0, 1000], [-100, 0]]
+level = "sea"
+current_field = { name = "shear", surface_m_s = [0.4, 0, 0], deep_m_s = [0, 0, 0], depth_m = 50 }
+[environment.sea]
+bottom_depth_m = 120
+temperature_c = 12
+absorption = "ainslie-mccolm"
+spreading_exponent = 1.5
+shipping = 0.5
+wind_m_s = 5
+surface_loss_db = 1
+bottom = { density_kg_m3 = 1900, sound_speed_m_s = 1650, attenuation_db_wavelength = 0.8 }
+bounces_max = 3
+fading = { kind = "rician", k_db = 6, per = "bit" }
+[environment.sea.sound_speed]
+depths_m = [0, 20, 60]
+temperatures_c = [22, 21, 13]
+salinities_psu = [38, 38, 38.3]
+formula = "mackenzie"
+[sensors.mine]
+like = "ahrs-dvl"
+dvl = { altitude_max_m = 50, velocity_error_m_s = 0.01 }
+gnss = "standalone"
+[[group]]
+name = "a"
+count = 3
+modem = "micromodem-psk"
+sensors = "mine"
+"#;
+
 const PIECES: &[&str] = &[
     "",
     "0",
@@ -31,6 +66,9 @@ const PIECES: &[&str] = &[
     "\"\"",
     "\"circle\"",
     "\"reynolds\"",
+    "\"sea\"",
+    "\"munk\"",
+    "[1, 1]",
     "[]",
     "[[]]",
     "[[1, 2]]",
@@ -58,6 +96,41 @@ const PIECES: &[&str] = &[
     "\u{FEFF}",
     "a.b.c = 1\n",
 ];
+
+/// A scenario that says nearly everything about its modems.
+const MODEMS: &str = r#"
+name = "modems"
+duration_s = 10
+[environment]
+area_m = [[0, 300], [0, 400], [-1200, 0]]
+level = "sea"
+[[group]]
+name = "slotted"
+count = 3
+[group.modem]
+like = "popoto"
+source_level_db = 180
+centre_hz = 25000
+bandwidth_hz = 8000
+bit_rate_bit_s = 640
+preamble_s = 0.2
+modulation = "bpsk"
+addresses = 4
+frame_bytes = 40
+duty_cycle = { period_s = 10, awake_s = 6 }
+access = { name = "slotted", slot_s = 2.5, slots = 9, guard_range_m = 1200 }
+[[group]]
+name = "csma"
+count = 3
+[group.modem]
+like = "seatrac"
+ping_period_s = 20
+access = { name = "csma", listen_s = 0.5, backoff_s = 5 }
+[[group]]
+name = "aloha"
+count = 3
+modem = { like = "micromodem-fsk", access = "aloha", timestamp_error_s = 1e-3 }
+"#;
 
 fn mutate(text: &str, draws: &mut Draws) -> String {
     let mut text = text.to_string();
@@ -100,15 +173,22 @@ fn mutate(text: &str, draws: &mut Draws) -> String {
 }
 
 #[test]
+fn what_is_mutated_is_good() {
+    parse("sea.toml", SEA).unwrap_or_else(|errors| panic!("{errors}"));
+}
+
+#[test]
 fn no_mutation_of_a_scenario_makes_the_parser_panic() {
     let mut draws = Draws(1);
     let (mut good, mut bad) = (0, 0);
+    let originals: Vec<&str> = library().iter().map(|entry| entry.text).chain([MODEMS, SEA, SEA]).collect();
     for round in 0..4000 {
-        let original = library()[draws.below(library().len())].text;
+        let original = originals[draws.below(originals.len())];
         let text = mutate(original, &mut draws);
         match parse("mutated.toml", &text) {
             Ok(scenario) => {
                 good += 1;
+                assert!(scenario.warnings().iter().all(|warning| !warning.to_string().is_empty()));
                 let count = 1 + draws.below(70_000) as u32;
                 let _ = Overrides { auvs: Some(count), window_ms: Some(91.0), ..Overrides::default() }
                     .apply(scenario);
@@ -124,6 +204,11 @@ fn no_mutation_of_a_scenario_makes_the_parser_panic() {
         }
     }
     assert!(good > 100 && bad > 1000, "{good} good and {bad} bad mutations prove little");
+}
+
+#[test]
+fn the_modems_are_good_before_they_are_mutated() {
+    assert_eq!(parse("modems.toml", MODEMS).map(|scenario| scenario.auv_count()), Ok(9));
 }
 
 #[test]

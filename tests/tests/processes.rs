@@ -72,6 +72,28 @@ fn scenarios_are_listed_and_checked() {
 }
 
 #[test]
+fn what_is_doubtful_runs_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let mine = folder.path().join("mine.toml");
+    let text = "name = \"many\"\nduration_s = 1\nenvironment.area_m = [[0, 90], [0, 90], [-90, 0]]\n\
+                [[group]]\nname = \"a\"\ncount = 16\nmodem = \"seatrac\"\n";
+    std::fs::write(&mine, text).unwrap();
+    let said = "16 AUVs have the modem `seatrac`, whose addresses end at 15: this swarm is an extrapolation";
+    for command in ["run --bus local --json --auvs 16", "check"] {
+        let finished = Command::new(command).with(&mine).finish().succeeded();
+        let warnings: Vec<_> = finished.stderr.lines().filter(|line| line.starts_with("warning:")).collect();
+        assert!(
+            matches!(warnings[..], [warning] if warning.ends_with(said)),
+            "{command}:\n{}",
+            finished.stderr
+        );
+        assert!(!finished.stdout.contains("warning"), "{}", finished.stdout);
+    }
+    let fewer = Command::new("run --bus local --json --auvs 15").with(&mine).finish().succeeded();
+    assert!(!fewer.stderr.contains("warning:"), "{}", fewer.stderr);
+}
+
+#[test]
 fn what_cannot_be_run_is_refused_with_a_sentence() {
     let refused = |arguments: &str, said: &str| {
         let finished = Command::new(arguments).finish().exited(2);

@@ -28,6 +28,9 @@ use crate::summary_text;
 pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let order = Order::read(args)?;
     let scenario = order.scenario()?;
+    for warning in scenario.warnings() {
+        eprintln!("warning: {warning}");
+    }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;
     let run = RunDir::create(&description(&scenario, &order)).while_doing("make a folder for the run")?;

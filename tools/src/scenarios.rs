@@ -57,6 +57,9 @@ pub fn check(names: &[String]) -> Result<Exit, Failure> {
                         "{source_name}: good: {auvs} AUVs in {groups} group{plural}, {} s",
                         scenario.duration_ns as f64 / 1e9
                     );
+                    for warning in scenario.warnings() {
+                        eprintln!("warning: {source_name}: {warning}");
+                    }
                 }
             },
         }

@@ -41,6 +41,19 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
     for violation in &containment.first {
         writeln!(text, "    {}", describe(violation))?;
     }
+    let misled = &containment.misled;
+    if misled.auvs > 0 {
+        let auvs = if misled.auvs == 1 {
+            "1 AUV".to_owned()
+        } else {
+            format!("{} AUVs", grouped(misled.auvs.into()))
+        };
+        writeln!(
+            text,
+            "                counted apart: {auvs} misled by what they heard, {} enclosures without the truth",
+            grouped(misled.violations)
+        )?;
+    }
     writeln!(
         text,
         "  position      width {:.2} m at first, {:.2} m at last in the median, {:.2} m at most",
@@ -54,7 +67,16 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         seconds(clock.end_max)
     )?;
     let lost = &pings.lost;
-    writeln!(text, "  pings         {} emitted, {} heard", grouped(pings.emitted), grouped(pings.heard))?;
+    let outliers = match pings.outliers {
+        0 => String::new(),
+        count => format!(", {} of them the long way round (outliers)", grouped(count)),
+    };
+    writeln!(
+        text,
+        "  pings         {} emitted, {} heard{outliers}",
+        grouped(pings.emitted),
+        grouped(pings.heard)
+    )?;
     let reasons = [
         ("range", lost.range),
         ("noise", lost.noise),
@@ -63,9 +85,10 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         ("shadow", lost.shadow),
         ("asleep", lost.asleep),
         ("band", lost.band),
-        ("busy", lost.busy),
         ("late", lost.late),
         ("dead", lost.dead),
+        ("held back", lost.busy),
+        ("unsent", lost.unsent),
     ];
     let lost: Vec<String> = reasons
         .iter()

@@ -10,6 +10,7 @@
 //! | `tube_estimator.rs` | the state tube, online |
 //! | `state.rs` | position and clock as one set, contracted by measurements |
 //! | `motion.rs` | how far the body can have moved |
+//! | `odometry.rs` | what it did from any remembered moment until now |
 //! | `history.rs` | the tube that is remembered |
 //! | `controller/` | hold, circle, waypoints, reynolds |
 //! | `neighbours.rs` | who is around |
@@ -28,6 +29,7 @@ pub mod motion;
 pub mod neighbours;
 #[cfg(test)]
 mod newborn;
+pub mod odometry;
 mod sabotage;
 pub mod state;
 pub mod tube_estimator;

@@ -37,7 +37,8 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Takes in the pings of one tick and forgets who has been silent for `forget_ns` local nanoseconds.
+    /// Takes in the pings of one tick and forgets who has been silent for `forget_ns` local nanoseconds. A ping that arrived before
+    /// the last one known of its sender, and is told after it, says nothing new.
     pub fn listen(&mut self, sensed: &Sensed, forget_ns: i64) {
         for event in &sensed.events {
             let Sense::Heard { frame } = &event.sense else { continue };
@@ -51,7 +52,10 @@ impl Neighbours {
                 velocity_m_s: middle(ping.velocity_m_s),
                 box_width_m: box_width(&ping.position_m),
             };
-            self.last.insert(ping.sender, neighbour);
+            let last = self.last.entry(ping.sender).or_insert(neighbour);
+            if last.heard <= neighbour.heard {
+                *last = neighbour;
+            }
         }
         self.last.retain(|_, neighbour| sensed.stamp - neighbour.heard <= forget_ns);
     }
@@ -75,4 +79,56 @@ impl Neighbours {
 /// Whether one of these fleets has `auv`.
 pub fn trusted(fleets: &[Fleetmates], auv: AuvId) -> bool {
     fleets.iter().any(|fleet| fleet.contains(auv))
+}
+
+#[cfg(test)]
+mod tests {
+    use shoal_bus::message::{Bounds, Event};
+
+    use super::*;
+
+    #[test]
+    fn the_last_ping_is_the_one_that_arrived_last() {
+        let mut neighbours = Neighbours::default();
+        let mut hear = |stamp_ns: i64, east_m: f64| {
+            let ping = Ping {
+                sender: AuvId(4),
+                sequence: 0,
+                emission_s: Bounds::default(),
+                position_m: [Bounds::new(east_m, east_m), Bounds::default(), Bounds::default()],
+                velocity_m_s: [Bounds::default(); 3],
+            };
+            let sense = Sense::Heard { frame: ping.encode().unwrap() };
+            let events = vec![Event { stamp: LocalTime::from_ns(stamp_ns), sense }];
+            neighbours.listen(&Sensed { tick: 0, stamp: LocalTime::from_ns(1_000), events }, 500);
+            neighbours.at(0.0).next().map(|neighbour| neighbour.position_m.x)
+        };
+        assert_eq!(hear(700, 1.0), Some(1.0));
+        // A long packet that began to arrive earlier is told later.
+        assert_eq!(hear(600, 2.0), Some(1.0));
+        assert_eq!(hear(800, 3.0), Some(3.0));
+        assert_eq!(hear(800, 4.0), Some(4.0));
+    }
+
+    #[test]
+    fn silence_is_counted_from_the_arrival() {
+        let mut neighbours = Neighbours::default();
+        let listen = |neighbours: &mut Neighbours, stamp_ns: i64, events: Vec<Event>| {
+            neighbours.listen(&Sensed { tick: 0, stamp: LocalTime::from_ns(stamp_ns), events }, 500);
+            neighbours.count()
+        };
+        let ping = Ping {
+            sender: AuvId(4),
+            sequence: 0,
+            emission_s: Bounds::default(),
+            position_m: [Bounds::default(); 3],
+            velocity_m_s: [Bounds::default(); 3],
+        };
+        let sense = Sense::Heard { frame: ping.encode().unwrap() };
+        let heard = Event { stamp: LocalTime::from_ns(400), sense };
+        // A packet so long that its beginning is already forgotten says nothing of the present.
+        assert_eq!(listen(&mut neighbours, 1_000, vec![heard.clone()]), 0);
+        assert_eq!(listen(&mut neighbours, 900, vec![heard]), 1);
+        assert_eq!(listen(&mut neighbours, 901, Vec::new()), 0);
+    }
 }

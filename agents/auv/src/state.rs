@@ -68,6 +68,19 @@ impl State {
         }
     }
 
+    /// The states that both hold.
+    pub fn intersection(&self, other: &Self) -> Self {
+        Self {
+            offset_s: self.offset_s.intersection(other.offset_s),
+            position_m: self.position_m.intersection(&other.position_m),
+        }
+    }
+
+    /// Whether it holds nothing.
+    pub fn is_empty(&self) -> bool {
+        self.offset_s.is_empty() || self.position_m.is_empty()
+    }
+
     /// True time at `stamp_s`, in seconds.
     pub fn true_time_s(&self, stamp_s: Interval) -> Interval {
         self.offset_s + stamp_s
@@ -138,11 +151,7 @@ impl State {
     }
 
     fn unless_empty(self, culprit: Culprit) -> Result<Self, Contradiction> {
-        if self.offset_s.is_empty() || self.position_m.is_empty() {
-            Err(Contradiction(culprit))
-        } else {
-            Ok(self)
-        }
+        if self.is_empty() { Err(Contradiction(culprit)) } else { Ok(self) }
     }
 }
 

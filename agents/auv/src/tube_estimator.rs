@@ -2,7 +2,7 @@
 //!
 //! `dt/ds in [1/(1+d), 1/(1-d)]` and `dp/ds in (R(heading, pitch) [v] + [current] + [n]) dt/ds` carry the enclosure on;
 //! fixes, depths and pings contract it where they are measured (seed 001, section 5.3). Every measurement happens at a known local
-//! time, so no clock is ever inverted.
+//! time, so no clock is ever inverted. What is told late contracts the state that was, and odometry carries it on.
 
 use shoal_bus::message::{Born, Culprit, Emptied, Estimator as Orders, Event, Measured, Sense, Sensed};
 use shoal_bus::ping::Ping;
@@ -13,6 +13,7 @@ use crate::bounds::{interval, interval_box, measured};
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::history::History;
 use crate::motion::{Motion, Stretch};
+use crate::odometry::{Leg, Odometry, Way};
 use crate::state::{Contradiction, Moment, Sound, State};
 
 /// Encloses the state by a tube.
@@ -24,6 +25,7 @@ pub struct TubeEstimator {
     now: LocalTime,
     velocity_m_s: IntervalBox<3>,
     history: History,
+    odometry: Odometry,
 }
 
 impl TubeEstimator {
@@ -46,6 +48,7 @@ impl TubeEstimator {
             stamp_s: born.clock.stamp_ns as f64 * 1e-9,
             now: born.birth,
             history: History::new(born.birth, &state, horizon_ns),
+            odometry: Odometry::new(horizon_ns),
         }
     }
 
@@ -73,6 +76,23 @@ impl TubeEstimator {
         }
         emptied.get_or_insert(Emptied { stamp, by: Culprit::Inertial });
         since.intersection(&self.motion.any_velocity())
+    }
+
+    /// The state after one event that is stamped `lag_s` local seconds before it; `way` leads there from the last tick.
+    ///
+    /// What belongs to the time before the last tick, as the beginning of a long packet does, contracts the state that was.
+    /// What is older than the horizon is ignored.
+    fn informed(&self, state: &State, way: &Way, event: &Event, lag_s: f64) -> Result<State, Contradiction> {
+        // A stamp may precede the tick by its own error, which is nothing to go back for.
+        if lag_s <= self.timestamp_s {
+            return self.contracted(state, event, lag_s);
+        }
+        let Some((then, since)) = self.odometry.recall(event.stamp, &self.motion) else { return Ok(*state) };
+        let since = since.then(way);
+        let then = self.contracted(&then.intersection(&since.back(state)), event, 0.0)?;
+        let known = state.intersection(&since.ahead(&then));
+        // Everything in `then` leads into `state`, so nothing is left only where they touch, for want of digits.
+        Ok(if known.is_empty() { *state } else { known })
     }
 
     /// The state contracted by one event that is stamped `lag_s` local seconds before it.
@@ -108,6 +128,7 @@ impl Estimator for TubeEstimator {
         let mut state = self.history.last();
         let mut since = begun;
         let mut slice: Option<State> = None;
+        let mut way = Way::none();
 
         let mut events = sensed.events.iter().peekable();
         loop {
@@ -116,10 +137,11 @@ impl Estimator for TubeEstimator {
             let moved = self.motion.over(&stretch, seconds(since - begun), seconds(next - begun));
             let before = state;
             state = state.moved(&moved);
+            way = way.then(&Way::from(&moved));
             let mut told = false;
             while let Some(event) = events.next_if(|event| event.stamp <= next) {
                 told = true;
-                match self.contracted(&state, event, seconds(next - event.stamp)) {
+                match self.informed(&state, &way, event, seconds(next - event.stamp)) {
                     Ok(contracted) => {
                         contractions += u16::from(contracted.is_tighter_than(&state));
                         state = contracted;
@@ -138,6 +160,7 @@ impl Estimator for TubeEstimator {
         }
 
         let slice = slice.unwrap_or(state);
+        self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.history.last(), stretch, way });
         self.history.append(sensed.stamp, &slice, &state);
         self.now = sensed.stamp;
         self.velocity_m_s = after_m_s;
@@ -168,3 +191,6 @@ fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> 
 pub(crate) fn seconds(ns: i64) -> f64 {
     ns as f64 * 1e-9
 }
+
+#[cfg(test)]
+mod tests;

@@ -222,11 +222,7 @@ impl Channel {
         let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
         let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
         let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
-        let mut summary =
-            self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, self.medium.in_flight());
-        let misled = self.vehicles.iter().filter(|vehicle| vehicle.is_misled_at(self.now)).count();
-        summary.containment.misled.auvs = misled as u32;
-        summary
+        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, self.medium.in_flight())
     }
 
     /// All pings that leave before `to`.
@@ -264,8 +260,7 @@ impl Channel {
         emitter.emitted += 1;
         emitter.emits_until = at + packet_ns;
         let pose = emitter.body.at(at);
-        // What it says was decided a reaction time ago.
-        let misled = emitter.is_misled_at(at + -emitter.lookahead_ns());
+        let exposed = emitter.is_exposed_at(at);
         let (violation, box_width_m) =
             check_ping(from, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
         let wavefront = Arc::new(Wavefront {
@@ -278,7 +273,7 @@ impl Channel {
             frame: planned.frame,
             box_width_m,
             range_m: emitter.born.modem.range_m,
-            misled,
+            is_false: violation.is_some(),
         });
         let moved_m = self.fastest_m_s * ((at - self.now) as f64 * 1e-9) + 1e-6;
         let beyond_range = self.medium.emit(&wavefront, &mut self.vehicles, &self.grid, moved_m);
@@ -290,7 +285,7 @@ impl Channel {
             packet_s: packet_ns as f64 * 1e-9,
         };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
-        self.tally.check(from, at, violation, misled);
+        self.tally.check(from, at, violation, exposed);
     }
 
     /// Why a modem does not emit what is booked for now, if it does not.
@@ -321,8 +316,8 @@ impl Channel {
                     fate = Fate::lost(Some(to), LossReason::Dead, range_m);
                 }
                 Fate::Heard { outlier, .. } => {
-                    if outlier || wavefront.misled {
-                        receiver.mislead(at);
+                    if outlier || wavefront.is_false {
+                        receiver.expose(at);
                     }
                     receiver.hear(at, stamp, from.0, &wavefront.frame);
                 }
@@ -394,11 +389,11 @@ impl Channel {
             .position(&report.slice.position_m, &tick.between_position_m)
             .time(&report.slice.clock_offset_s, between_offset_s)
             .violation();
-        let misled = vehicle.is_misled_at(tick.at);
-        self.tally.check(auv, tick.at, at_tick, misled);
-        self.tally.check(auv, tick.at, between_ticks, misled);
+        let exposed = vehicle.is_exposed_at(tick.at);
+        self.tally.check(auv, tick.at, at_tick, exposed);
+        self.tally.check(auv, tick.at, between_ticks, exposed);
         if report.emptied.is_some() {
-            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), misled);
+            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), exposed);
         }
         self.tally.reported(auv, box_width(&report.position_m), report.clock_offset_s.width());
         for (index, ping) in acted.pings.iter().enumerate() {

@@ -116,6 +116,8 @@ impl TrueClock {
 
 #[cfg(test)]
 mod tests {
+    use shoal_scenario::presets;
+
     use super::*;
 
     fn clock(drift_bound: f64, noise: Noise, auv: u32) -> TrueClock {
@@ -153,5 +155,35 @@ mod tests {
             assert_eq!(whole.reaches(local), forgetful.reaches(local));
         }
         assert!(forgetful.knots.len() < 5);
+    }
+
+    #[test]
+    fn clocks_of_scenarios_keep_their_bounds_and_no_more() {
+        let custom = ClockModel { drift_bound: 2e-3, wander_fraction: 1.0, offset_bound_s: 3.0 };
+        let named = presets::CLOCKS.iter().map(|(name, model)| (*name, model.clone()));
+        let mut names = Vec::new();
+        for (name, model) in named.chain([("custom", custom)]) {
+            let mut fastest = 0.0_f64;
+            for auv in 0..20 {
+                let mut clock = TrueClock::new(&model, 10_000_000, 4, AuvId(auv), Noise::Adversarial);
+                let start_s = clock.offset_s(SimTime::ZERO);
+                assert!(start_s.abs() <= model.offset_bound_s, "{name} starts {start_s} s off");
+                let (mut last_t, mut last) = (SimTime::ZERO, clock.exact(SimTime::ZERO));
+                for step in 1..=100i64 {
+                    let t = SimTime::from_ns(step * 987_654_321);
+                    let now = clock.exact(t);
+                    // Exact integers, so that even the drift of an atomic clock is not lost in rounding.
+                    let gained = (now - last) - i128::from(t - last_t) * ONE;
+                    let drift = gained as f64 / ONE as f64 / (t - last_t) as f64;
+                    assert!(drift.abs() <= model.drift_bound, "{name} drifts by {drift}");
+                    fastest = fastest.max(drift.abs());
+                    (last_t, last) = (t, now);
+                    clock.forget_before(t);
+                }
+            }
+            assert!(fastest >= 0.5 * model.drift_bound, "{name} never drifts faster than {fastest}");
+            names.push(name);
+        }
+        assert_eq!(names, ["ideal", "quartz", "tcxo", "csac", "custom"]);
     }
 }

@@ -105,6 +105,16 @@ pub struct EarSettings {
     pub sense_ns: i64,
 }
 
+impl EarSettings {
+    /// Mean level in dB re 1 µPa below which no packet is ever noticed, however lucky its fading: as
+    /// [`ArrivalKind::Interference`] it disturbs the same, but for its own fading.
+    pub fn noticeable_db(&self) -> f64 {
+        let luck_db = db_from_power(Gain::new(self.fading).greatest());
+        // A hair lower, for the rounding of decibels.
+        self.noise_db + self.physical.detection_threshold_db - luck_db - 1e-6
+    }
+}
+
 /// What became of one packet at one receiver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {

@@ -37,8 +37,8 @@ pub struct Wavefront {
     pub box_width_m: f64,
     /// Heard up to this range at level `ideal`, in metres.
     pub range_m: f64,
-    /// Whether what it carries may rest on an outlier.
-    pub misled: bool,
+    /// Whether what it carries does not hold the truth.
+    pub is_false: bool,
 }
 
 /// What one receiver makes of one wavefront.
@@ -194,7 +194,7 @@ mod tests {
             frame: Frame::new(&[]).unwrap(),
             box_width_m: 0.0,
             range_m: 1e4,
-            misled: false,
+            is_false: false,
         })
     }
 

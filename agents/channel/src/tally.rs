@@ -1,5 +1,7 @@
 //! Keeps count: what happened in the window, and what the whole run amounts to.
 
+use std::collections::BTreeSet;
+
 use shoal_bus::chronicle::{Entry, Violation, What};
 use shoal_bus::message::AuvId;
 use shoal_bus::summary::{
@@ -19,7 +21,8 @@ pub struct Tally {
     wakes: u64,
     checks: u64,
     violations: u64,
-    misled: Misled,
+    misled: BTreeSet<AuvId>,
+    misled_violations: u64,
     first_violations: Vec<(SimTime, AuvId, Violation)>,
     widths: Vec<Option<ReportWidths>>,
     pings: Pings,
@@ -41,7 +44,8 @@ impl Tally {
             wakes: 0,
             checks: 0,
             violations: 0,
-            misled: Misled::default(),
+            misled: BTreeSet::new(),
+            misled_violations: 0,
             first_violations: Vec::new(),
             widths: vec![None; auvs],
             pings: Pings::default(),
@@ -86,15 +90,15 @@ impl Tally {
         self.happened(traffic.at, auv, What::Traffic(traffic));
     }
 
-    /// An enclosure was checked; that of an AUV that was misled by an outlier is counted apart.
-    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>, misled: bool) {
-        if misled {
-            self.misled.checks += 1;
-            self.misled.violations += u64::from(violation.is_some());
-            return;
-        }
+    /// An enclosure was checked; a violation by an AUV that is exposed to something false is counted apart.
+    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>, exposed: bool) {
         self.checks += 1;
         let Some(violation) = violation else { return };
+        if exposed {
+            self.misled_violations += 1;
+            self.misled.insert(auv);
+            return;
+        }
         self.violations += 1;
         self.first_violations.push((at, auv, violation));
         self.first_violations.sort_by_key(|&(at, auv, _)| (at, auv));
@@ -170,7 +174,8 @@ impl Tally {
             unit: violation.coordinate.unit().to_owned(),
         };
         let first = self.first_violations.iter().map(line).collect();
-        Containment { checks: self.checks, violations: self.violations, first, misled: self.misled }
+        let misled = Misled { auvs: self.misled.len() as u32, violations: self.misled_violations };
+        Containment { checks: self.checks, violations: self.violations, first, misled }
     }
 }
 

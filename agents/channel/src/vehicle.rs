@@ -37,7 +37,7 @@ pub struct Vehicle {
     pub emitted: u32,
     /// End of its last packet, at the emitter.
     pub emits_until: SimTime,
-    misled_since: Option<SimTime>,
+    exposed_since: Option<SimTime>,
     sensors: Sensors,
     timestamps: Draws,
     timestamp_error_s: f64,
@@ -102,7 +102,7 @@ impl Vehicle {
             length_m,
             emitted: 0,
             emits_until: SimTime::ZERO,
-            misled_since: None,
+            exposed_since: None,
             sensors,
             timestamps: arrivals,
             timestamp_error_s,
@@ -127,14 +127,14 @@ impl Vehicle {
         (usable_ns / (1.0 + self.born.clock.drift)).floor() as i64
     }
 
-    /// What it states from `since` on may rest on an outlier.
-    pub fn mislead(&mut self, since: SimTime) {
-        self.misled_since.get_or_insert(since);
+    /// It heard something false: an outlier, or a payload that does not hold the truth.
+    pub fn expose(&mut self, since: SimTime) {
+        self.exposed_since.get_or_insert(since);
     }
 
-    /// Whether what it states at `at` may rest on an outlier.
-    pub fn is_misled_at(&self, at: SimTime) -> bool {
-        self.misled_since.is_some_and(|since| since <= at)
+    /// Whether what it states at `at` may rest on something false that it heard.
+    pub fn is_exposed_at(&self, at: SimTime) -> bool {
+        self.exposed_since.is_some_and(|since| since <= at)
     }
 
     /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.

@@ -125,4 +125,4 @@ fn between_surface_and_bottom(profile: &Profile, bottom_m: f64) -> Result<Profil
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

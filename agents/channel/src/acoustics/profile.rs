@@ -219,7 +219,7 @@ impl Profile {
 
 /// A depth in a profile. Layer `i` lies above node `i`; a level at a node has two.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Level {
+pub(in crate::acoustics) struct Level {
     pub(super) depth_m: f64,
     pub(super) speed_m_s: f64,
     pub(super) layer_above: usize,

@@ -1,6 +1,6 @@
 //! How much louder or fainter than its mean one packet arrives by one path.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{LN_2, TAU};
 
 use pxfm::{f_cos, f_log};
 use shoal_scenario::model::{Fading, FadingKind, FadingPer};
@@ -51,5 +51,13 @@ impl Gain {
             steady * steady + diffuse + 2.0 * steady * diffuse.sqrt() * f_cos(phase_rad)
         };
         gain.max(LEAST_GAIN)
+    }
+
+    /// No draw is greater.
+    pub(super) fn greatest(self) -> f64 {
+        let Self::Scattered { steady, scattered } = self else { return 1.0 };
+        // A unit draw has 53 bits and is less than one.
+        let diffuse = 53.0 * LN_2 * scattered;
+        (1.0 + 1e-9) * (steady + diffuse.sqrt()) * (steady + diffuse.sqrt())
     }
 }

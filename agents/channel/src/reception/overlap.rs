@@ -104,8 +104,8 @@ impl Overlaps {
         energy / (copy.arrival.end - copy.arrival.start) as f64
     }
 
-    /// Whose packets took `copy`, which has just ended: the one that the receiver followed instead, and of all that
-    /// overlapped those that carry nine tenths of the energy, or of the power at its beginning if it was not noticed. Sorted.
+    /// Whose packets cost `copy`, which has just ended, sorted: the one that the receiver followed instead, and the loudest of
+    /// all that overlapped, which carry nine tenths of the energy, or of the power at its beginning if that went unnoticed.
     pub(super) fn colliding(&mut self, copy: &Sound) -> Vec<AuvId> {
         let mut named = Vec::new();
         let mut weights = std::mem::take(&mut self.weights);
@@ -113,14 +113,14 @@ impl Overlaps {
         weights.extend(
             self.others(copy).map(|(other, overlap_ns)| (other.power * overlap_ns, other.arrival.from)),
         );
-        name_loudest(&mut weights, &mut named);
+        name_loudest(&weights, &mut named);
         match copy.standing {
             Standing::Missed => {
                 let start = copy.arrival.start;
                 let at_start = self.others(copy).filter(|(other, _)| other.arrival.start <= start);
                 weights.clear();
                 weights.extend(at_start.map(|(other, _)| (other.power, other.arrival.from)));
-                name_loudest(&mut weights, &mut named);
+                name_loudest(&weights, &mut named);
             }
             Standing::Displaced(packet) => named.push(packet.from),
             Standing::Followed | Standing::Deaf => {}
@@ -141,13 +141,24 @@ impl Overlaps {
     }
 }
 
-/// Names the loudest: all but the faintest that together make at most [`UNNAMED`] of the whole.
-fn name_loudest(weights: &mut [(f64, AuvId)], named: &mut Vec<AuvId>) {
-    weights.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let whole: f64 = weights.iter().map(|&(weight, _)| weight).sum();
+/// Names the loudest: in classes of a factor of two, all but the faintest classes that together make at most [`UNNAMED`] of the
+/// whole. Classes spare a sort, and treat equals alike.
+fn name_loudest(weights: &[(f64, AuvId)], named: &mut Vec<AuvId>) {
+    const CLASSES: usize = 64;
+    let exponent = |weight: f64| weight.to_bits() >> 52;
+    let loudest = weights.iter().map(|&(weight, _)| exponent(weight)).max().unwrap_or(0);
+    let class = |weight| CLASSES.min((loudest - exponent(weight)) as usize + 1) - 1;
+    let mut sums = [0.0; CLASSES];
+    for &(weight, _) in weights {
+        sums[class(weight)] += weight;
+    }
+    let unnamed = UNNAMED * sums.iter().sum::<f64>();
     let mut faint = 0.0;
-    named.extend(weights.iter().filter_map(|&(weight, from)| {
-        faint += weight;
-        (faint > UNNAMED * whole).then_some(from)
-    }));
+    let is_named = |sum: &f64| {
+        faint += sum;
+        faint > unnamed
+    };
+    let least = sums.iter().rposition(is_named);
+    let is_loud = |weight| least.is_some_and(|least| class(weight) <= least);
+    named.extend(weights.iter().filter(|&&(weight, _)| is_loud(weight)).map(|&(_, from)| from));
 }

@@ -90,7 +90,7 @@ impl Packets {
         Some(Outcome { arrival, at, reception, verdict: Verdict::Lost { reason, colliding } })
     }
 
-    /// One copy less is expected; the packet itself after its last.
+    /// One copy less is expected; the packet itself after its last. There is at least one as long as the packet is open.
     fn count_down(&mut self, place: usize) -> Option<Open> {
         self.open[place].copies_left -= 1;
         (self.open[place].copies_left == 0).then(|| self.open.remove(place))

@@ -218,11 +218,16 @@ fn the_medium_is_busy_while_sound_is_noticeable_or_the_modem_emits() {
         if ear.busy(at(ms - 10), at(ms)) {
             busy_ms.push(ms - 10);
         }
+        // What has just ended is remembered for 20 ms.
+        assert_eq!(
+            ear.busy(at(ms - 20), at(ms)),
+            (201..370).contains(&ms) || (501..570).contains(&ms),
+            "{ms}"
+        );
     }
     let expected: Vec<i64> = (200..350).chain(500..550).step_by(10).collect();
     assert_eq!(busy_ms, expected);
-    // Half a step back is remembered, and a span of no length is an instant.
-    assert!(!ear.busy(at(690), at(700)));
+    // A span of no length is an instant.
     ear.expect(packet(5, 710, 30.0));
     ear.settle(at(720), &mut Vec::new());
     assert!(ear.busy(at(700), at(720)) && ear.busy(at(720), at(720)) && !ear.busy(at(700), at(710)));
@@ -282,6 +287,7 @@ fn fading_changes_no_mean() {
         let expected = (1.0 + 2.0 * k) / ((1.0 + k) * (1.0 + k));
         assert!((mean - 1.0).abs() < 4.0 * (expected / f64::from(COUNT)).sqrt(), "{kind:?}: {mean}");
         assert!((variance / expected - 1.0).abs() < 0.1, "{kind:?}: {variance} {expected}");
+        assert!(gains.iter().all(|&drawn| drawn <= gain.greatest()));
     }
 }
 
@@ -303,7 +309,16 @@ fn each_bit_fails_with_the_interference_of_its_time() {
     assert_eq!(decoder.success(&arrival, 200, 1e9 * power, &stretches), 1.0);
 }
 
-/// A packet and its copies, and when each is told.
+#[test]
+fn no_luck_lifts_a_packet_that_is_fainter_than_noticeable() {
+    assert!((settings(GAUSSIAN).noticeable_db() - (NOISE_DB + 3.0)).abs() < 2e-6);
+    // The luckiest draw is 53 bits of ones: -ln 2^-53 = 36.74, which is 15.65 dB.
+    assert!((settings(RAYLEIGH).noticeable_db() - (NOISE_DB + 3.0 - 15.651)).abs() < 1e-3);
+    let nearly_steady = Fading { kind: FadingKind::Rician { k_db: 60.0 }, per: FadingPer::Packet };
+    assert!((settings(nearly_steady).noticeable_db() - (NOISE_DB + 3.0)).abs() < 0.1);
+}
+
+/// Packets, all with their copies.
 fn packets() -> impl Strategy<Value = Vec<Arrival>> {
     let ms = |range: std::ops::Range<i64>| range.prop_map(|tenths| tenths * MS / 10);
     let one = (

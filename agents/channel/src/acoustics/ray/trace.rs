@@ -46,7 +46,7 @@ impl WaterColumn {
         range_m: f64,
         bounces_max: u32,
     ) -> Vec<Waypoint> {
-        let is_possible = (0.0..=self.bottom_depth_m).contains(&from_depth_m)
+        let is_possible = (0.0..=self.bottom_depth_m()).contains(&from_depth_m)
             && departure.cos > 0.0
             && departure.cos <= 1.0
             && departure.sin.is_finite()
@@ -55,14 +55,14 @@ impl WaterColumn {
         if !is_possible {
             return Vec::new();
         }
-        let slowness_s_m = departure.cos / self.profile.speed_m_s(from_depth_m);
+        let slowness_s_m = departure.cos / self.profile().speed_m_s(from_depth_m);
         let mut at = Waypoint { range_m: 0.0, depth_m: from_depth_m, direction: departure };
         let mut ray = vec![at];
         let mut bounces = 0;
         while at.range_m < range_m && ray.len() < WAYPOINTS_MAX {
             let is_going = |boundary| match boundary {
                 Boundary::Surface => at.depth_m <= 0.0 && at.direction.sin > 0.0,
-                Boundary::Bottom => at.depth_m >= self.bottom_depth_m && at.direction.sin < 0.0,
+                Boundary::Bottom => at.depth_m >= self.bottom_depth_m() && at.direction.sin < 0.0,
             };
             if is_going(Boundary::Surface) || is_going(Boundary::Bottom) {
                 if bounces == bounces_max {
@@ -84,15 +84,15 @@ impl WaterColumn {
 
     /// The end of the piece that begins at `at`.
     fn next(&self, at: &Waypoint, slowness_s_m: f64, range_m: f64) -> Waypoint {
-        let level = self.profile.level(at.depth_m);
+        let level = self.profile().level(at.depth_m);
         let goes_down = at.direction.sin < 0.0 || at.direction.sin == 0.0 && at.depth_m <= 0.0;
         let mut layer = if goes_down { level.layer_below } else { level.layer_above };
-        let mut gradient_1_s = self.profile.gradient_1_s(layer);
+        let mut gradient_1_s = self.profile().gradient_1_s(layer);
         if at.direction.sin == 0.0 {
             // A horizontal ray bends to where sound is slower; on a crest of speed it may go either way, and goes down.
-            let below_1_s = self.profile.gradient_1_s(level.layer_below);
-            let above_1_s = self.profile.gradient_1_s(level.layer_above);
-            let falls = below_1_s < 0.0 && at.depth_m < self.bottom_depth_m;
+            let below_1_s = self.profile().gradient_1_s(level.layer_below);
+            let above_1_s = self.profile().gradient_1_s(level.layer_above);
+            let falls = below_1_s < 0.0 && at.depth_m < self.bottom_depth_m();
             let rises = above_1_s > 0.0 && at.depth_m > 0.0;
             (layer, gradient_1_s) = match (falls, rises) {
                 (true, _) => (level.layer_below, below_1_s),
@@ -104,8 +104,8 @@ impl WaterColumn {
         let is_bent_back = down * gradient_1_s > 0.0;
         let leaves_down = if down == 0.0 { gradient_1_s < 0.0 } else { down > 0.0 };
         let side = if leaves_down { Boundary::Bottom } else { Boundary::Surface };
-        let limit_m = if leaves_down { self.bottom_depth_m } else { 0.0 };
-        let end = self.layer_end(layer, side, limit_m).unwrap_or_else(|| self.profile.level(limit_m));
+        let limit_m = if leaves_down { self.bottom_depth_m() } else { 0.0 };
+        let end = self.layer_end(layer, side, limit_m).unwrap_or_else(|| self.profile().level(limit_m));
         let end_cos = slowness_s_m * end.speed_m_s;
         let turns = is_bent_back && end_cos >= 1.0;
         let end_down = if turns { 0.0 } else { down_sine(end_cos, leaves_down) };

@@ -144,12 +144,13 @@ pub(super) fn brute_force_s(water: &WaterColumn, from_m: f64, to_m: f64, range_m
     let mut scan = |tries: &mut dyn Iterator<Item = (f64, Option<(f64, f64)>)>| {
         let mut before: Option<(f64, f64, f64)> = None;
         for (slowness, ray) in tries {
-            if let (Some((p0, r0, t0)), Some((r1, t1))) = (before, ray)
+            if let (Some((p0, r0, t0)), Some((r1, _))) = (before, ray)
                 && (r0 - range_m) * (r1 - range_m) <= 0.0
             {
+                // The slowness is the slope of travel time over range.
                 let share = if r1 == r0 { 0.0 } else { (range_m - r0) / (r1 - r0) };
-                let travel_s =
-                    if share < 0.5 { t0 + p0 * (range_m - r0) } else { t1 + slowness * (range_m - r1) };
+                let mean_slowness = p0 + 0.5 * share * (slowness - p0);
+                let travel_s = t0 + mean_slowness * (range_m - r0);
                 best = Some(best.map_or(travel_s, |best| best.min(travel_s)));
             }
             before = ray.map(|(range_m, travel_s)| (slowness, range_m, travel_s));
