@@ -73,3 +73,5 @@ impl Entry {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+pub use tests::assert_well_formed;

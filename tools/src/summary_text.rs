@@ -157,7 +157,7 @@ fn seconds(value: f64) -> String {
 }
 
 /// Thousands apart.
-fn grouped(count: u64) -> String {
+pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {

@@ -4,7 +4,7 @@ use shoal_interval::Interval;
 use shoal_interval::figure::ticks;
 
 /// Ticks are at least this far apart along x and y, in pixels.
-const TICK_SPACING_PX: [f64; 2] = [62.0, 36.0];
+const TICK_SPACING_PX: [f64; 2] = [45.0, 36.0];
 
 /// Room beside the outermost value, as a part of the axis.
 const MARGIN: f64 = 0.04;

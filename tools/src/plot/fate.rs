@@ -1,9 +1,12 @@
 //! What becomes of a ping at a receiver, and how that looks in every figure.
 
+use std::collections::BTreeMap;
+
 use shoal_bus::record::rows::PingRow;
 use shoal_bus::traffic::LossReason;
 
-use crate::figure::{Colour, Mark, Shape};
+use super::thinned::Thinned;
+use crate::figure::{Colour, Entry, Layer, Mark, Sample, Shape};
 
 /// What becomes of a ping at a receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,4 +64,19 @@ impl Fate {
             },
         }
     }
+}
+
+/// A layer of marks and a line of the legend for each fate; the rarest lies on top.
+pub fn by_fate(series: &BTreeMap<Fate, Thinned>) -> (Vec<Layer>, Vec<Entry>) {
+    let legend = series
+        .iter()
+        .map(|(fate, series)| Entry::new(Sample::Mark(fate.mark()), series.legend(fate.name())))
+        .collect();
+    let mut sorted: Vec<(&Fate, &Thinned)> = series.iter().collect();
+    sorted.sort_by_key(|(_, series)| std::cmp::Reverse(series.count()));
+    let layer = |(fate, series): (&Fate, &Thinned)| Layer::Marks {
+        mark: fate.mark(),
+        points: series.points().to_vec(),
+    };
+    (sorted.into_iter().map(layer).collect(), legend)
 }

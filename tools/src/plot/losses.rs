@@ -10,6 +10,7 @@ use shoal_bus::traffic::LossReason;
 use super::Plot;
 use super::fate::Fate;
 use crate::figure::{Axis, Entry, Figure, Layer, Panel, Sample};
+use crate::summary_text::grouped;
 
 /// More bars than this are made wider.
 const BARS_MAX: u64 = 100;
@@ -110,14 +111,14 @@ impl Plot for Losses {
             }
             layers.push(Layer::Bars { colour, bars });
             let total: u64 = counts.values().sum();
-            legend.push(Entry::new(Sample::Area(colour), format!("{}: {total}", fate.name())));
+            legend.push(Entry::new(Sample::Area(colour), format!("{}: {}", fate.name(), grouped(total))));
         }
         // The uppermost bar comes first in the legend, as in the figure.
         legend.reverse();
         legend.push(Entry::remark("not drawn:"));
-        legend.push(Entry::remark(format!("out of range: {}", self.beyond_range)));
-        legend.push(Entry::remark(format!("never left: {}", self.unsent)));
-        legend.push(Entry::remark(format!("pings emitted: {}", self.emitted)));
+        legend.push(Entry::remark(format!("out of range: {}", grouped(self.beyond_range))));
+        legend.push(Entry::remark(format!("never left: {}", grouped(self.unsent))));
+        legend.push(Entry::remark(format!("pings emitted: {}", grouped(self.emitted))));
         let greatest = heights.iter().copied().max().unwrap_or(0) as f64 / bar_s;
         let end_s = heights.len() as f64 * bar_s;
         let panel = Panel {

@@ -62,7 +62,7 @@ impl Plot for Ranges {
         }
         let bounds = format!("what {:.2} to {:.2} m/s allows", stated.lower, stated.upper);
         legend.push(Entry::new(Sample::Area(Colour::Pale), bounds));
-        let y_label = format!("travel time x {mean_m_s:.2} m/s, minus true range (m)");
+        let y_label = format!("travel time × {mean_m_s:.2} m/s, minus true range (m)");
         let panel = Panel {
             width_px: 640.0,
             x: Axis::from_zero("true range (m)", farthest_m),

@@ -105,7 +105,7 @@ fn speeds(column: &WaterColumn, y: Axis) -> Panel {
     let points = depths_m.map(|depth_m| [profile.speed_m_s(depth_m), depth_m]).collect();
     let (slowest_m_s, fastest_m_s) = profile.speed_bounds_m_s(0.0, bottom_m);
     Panel {
-        width_px: 150.0,
+        width_px: 180.0,
         x: Axis::around("sound speed (m/s)", slowest_m_s, fastest_m_s),
         y,
         layers: vec![Layer::Line { colour: Colour::Black, points }],

@@ -8,9 +8,10 @@ use shoal_bus::traffic::LossReason;
 
 use super::Plot;
 use super::depths::Depths;
-use super::fate::Fate;
+use super::fate::{Fate, by_fate};
 use super::thinned::Thinned;
-use crate::figure::{Axis, Entry, Figure, Layer, Panel, Sample};
+use crate::figure::{Axis, Entry, Figure, Panel};
+use crate::summary_text::grouped;
 
 /// Range and receiver's depth of every ping that reached a receiver.
 #[derive(Default)]
@@ -62,18 +63,13 @@ impl Plot for Reach {
         }
         let (mut farthest_m, mut deepest_m) = (0.0_f64, 0.0_f64);
         let mut shallowest_m = 0.0_f64;
-        let (mut layers, mut legend) = (Vec::new(), Vec::new());
-        for (fate, series) in &found.0 {
-            for [range_m, depth_m] in series.points() {
-                farthest_m = farthest_m.max(*range_m);
-                deepest_m = deepest_m.max(*depth_m);
-                shallowest_m = shallowest_m.min(*depth_m);
-            }
-            let mark = fate.mark();
-            legend.push(Entry::new(Sample::Mark(mark), series.legend(fate.name())));
-            layers.push(Layer::Marks { mark, points: series.points().to_vec() });
+        for [range_m, depth_m] in found.0.values().flat_map(Thinned::points) {
+            farthest_m = farthest_m.max(*range_m);
+            deepest_m = deepest_m.max(*depth_m);
+            shallowest_m = shallowest_m.min(*depth_m);
         }
-        legend.push(Entry::remark(format!("out of range, not drawn: {out_of_range}")));
+        let (layers, mut legend) = by_fate(&found.0);
+        legend.push(Entry::remark(format!("out of range, not drawn: {}", grouped(out_of_range))));
         let panel = Panel {
             width_px: 640.0,
             x: Axis::from_zero("range (m)", farthest_m),

@@ -6,9 +6,10 @@ use shoal_bus::record::rows::{PingRow, ReceptionRow};
 use shoal_bus::record::{RecordHeader, Row, Topic};
 
 use super::Plot;
-use super::fate::Fate;
+use super::fate::{Fate, by_fate};
 use super::thinned::Thinned;
-use crate::figure::{Axis, Entry, Figure, Layer, Panel, Sample};
+use crate::figure::{Axis, Entry, Figure, Panel};
+use crate::summary_text::grouped;
 
 /// Range and ratio of every packet that arrived.
 #[derive(Default)]
@@ -48,18 +49,13 @@ impl Plot for Sinr {
         }
         let mut farthest_m = 0.0_f64;
         let (mut least_db, mut greatest_db) = (f64::INFINITY, f64::NEG_INFINITY);
-        let (mut layers, mut legend) = (Vec::new(), Vec::new());
-        for (fate, series) in &self.series {
-            for [range_m, sinr_db] in series.points() {
-                farthest_m = farthest_m.max(*range_m);
-                least_db = least_db.min(*sinr_db);
-                greatest_db = greatest_db.max(*sinr_db);
-            }
-            let mark = fate.mark();
-            legend.push(Entry::new(Sample::Mark(mark), series.legend(fate.name())));
-            layers.push(Layer::Marks { mark, points: series.points().to_vec() });
+        for [range_m, sinr_db] in self.series.values().flat_map(Thinned::points) {
+            farthest_m = farthest_m.max(*range_m);
+            least_db = least_db.min(*sinr_db);
+            greatest_db = greatest_db.max(*sinr_db);
         }
-        legend.push(Entry::remark(format!("without a ratio, not drawn: {unknown}")));
+        let (layers, mut legend) = by_fate(&self.series);
+        legend.push(Entry::remark(format!("without a ratio, not drawn: {}", grouped(unknown))));
         let panel = Panel {
             width_px: 640.0,
             x: Axis::from_zero("range (m)", farthest_m),

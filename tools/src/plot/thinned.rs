@@ -1,5 +1,7 @@
 //! A series of points that stays short however many there are.
 
+use crate::summary_text::grouped;
+
 /// No series of a figure has more points.
 const POINTS_MAX: usize = 10_000;
 
@@ -37,20 +39,20 @@ impl Thinned {
         self.count += 1;
     }
 
-    /// The points that were kept.
-    pub fn points(&self) -> &[[f64; 2]] {
-        &self.points
-    }
-
     /// How many points there were.
     pub fn count(&self) -> u64 {
         self.count
     }
 
+    /// The points that were kept.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
     /// `name: COUNT`, and how many of them are drawn if not all are.
     pub fn legend(&self, name: &str) -> String {
         let sample = if self.every > 1 { format!(" (1 in {} drawn)", self.every) } else { String::new() };
-        format!("{name}: {}{sample}", self.count)
+        format!("{name}: {}{sample}", grouped(self.count))
     }
 }
 
@@ -62,9 +64,9 @@ mod tests {
     fn a_long_series_is_thinned_evenly() {
         let mut series = Thinned::default();
         (0..POINTS_MAX).for_each(|index| series.push([index as f64, 0.0]));
-        assert_eq!((series.points().len(), series.legend("a")), (POINTS_MAX, format!("a: {POINTS_MAX}")));
+        assert_eq!((series.points().len(), series.legend("a")), (POINTS_MAX, "a: 10,000".to_owned()));
         (POINTS_MAX..5 * POINTS_MAX).for_each(|index| series.push([index as f64, 0.0]));
-        assert_eq!(series.legend("a"), format!("a: {} (1 in 8 drawn)", 5 * POINTS_MAX));
+        assert_eq!(series.legend("a"), "a: 50,000 (1 in 8 drawn)");
         let expected = (0..5 * POINTS_MAX).step_by(8).map(|index| [index as f64, 0.0]);
         assert!(series.points().iter().copied().eq(expected));
     }
