@@ -124,7 +124,7 @@ fn slotted(
     let guard_range_m = table.number("guard_range_m", Some(diagonal_m), Rule::NotNegative);
     let (slot_ns, slots, guard_range_m) = (slot_ns?, slots?, guard_range_m?);
     if let Some(environment) = around.environment {
-        holds_a_packet(table, slot_ns, guard_range_m, packet, environment);
+        holds_a_packet(table, (slot_ns, slots), guard_range_m, packet, environment);
     }
     let frame_ns = slot_ns.checked_mul(slots.into());
     if let (Some(period_ns), Some(frame_ns), true) = (period_ns, frame_ns, table.has("slot_s"))
@@ -155,7 +155,7 @@ fn slotted(
 
 fn holds_a_packet(
     table: &Table<'_>,
-    slot_ns: i64,
+    (slot_ns, slots): (i64, u32),
     guard_range_m: f64,
     packet: Option<&PhysicalLayer>,
     environment: &Environment,
@@ -183,7 +183,13 @@ fn holds_a_packet(
             rounded(needed_s, 4)
         ),
         "runs into the next slot",
-        format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s)),
+        match table.has("slot_s") {
+            true => format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s)),
+            false => format!(
+                "write `ping_period_s = {}` or more, or a shorter `guard_range_m`",
+                rounded_up(needed_s * f64::from(slots))
+            ),
+        },
     );
 }
 
