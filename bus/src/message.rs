@@ -439,6 +439,8 @@ pub struct Emptied {
 pub enum Culprit {
     /// Heading, pitch or speed against the velocity that was possible.
     Inertial,
+    /// A velocity over ground against the current that was possible.
+    Dvl,
     /// A depth.
     Depth,
     /// A satellite fix.

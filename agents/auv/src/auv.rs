@@ -1,10 +1,8 @@
 //! One vehicle's mind: estimator, controller and modem, tick by tick.
 
-use nalgebra::Vector3;
 use shoal_bus::lockstep::Mind;
 use shoal_bus::message::{
-    Acted, Born, Bounds, Culprit, Emptied, Estimator as EstimatorOrders, Report, Sabotage, Sensed, Setpoint,
-    Slice,
+    Acted, Born, Culprit, Emptied, Estimator as EstimatorOrders, Report, Sabotage, Sensed, Setpoint, Slice,
 };
 use shoal_bus::time::NS_PER_S;
 
@@ -22,7 +20,6 @@ pub struct Auv {
     estimator: Box<dyn Estimator>,
     controller: Box<dyn Controller>,
     modem: Modem,
-    current_m_s: Vector3<f64>,
     lead_s: f64,
 }
 
@@ -34,13 +31,11 @@ impl Auv {
             EstimatorOrders::Tube { .. } => Box::new(TubeEstimator::new(&believed)),
         };
         let orders = &born.orders;
-        let current_m_s = Vector3::from(born.body.current_m_s.map(|side: Bounds| side.mid()));
         let lead_ns = born.wake.reaction_ns + born.wake.period_ns / 2;
         Self {
             estimator,
             controller: controller::ordered(&orders.controller, &born.prior_position_m, &orders.area_m),
             modem: Modem::new(born),
-            current_m_s,
             lead_s: lead_ns as f64 / NS_PER_S as f64,
             born: born.clone(),
         }
@@ -85,7 +80,7 @@ impl Mind for Auv {
         let now = self.estimator.predict(sensed.stamp);
         let steering = self.controller.steer(sensed, &self.belief(&estimate, &now));
         let through_water_m_s =
-            (steering.velocity_m_s - self.current_m_s).cap_magnitude(self.born.body.speed_m_s);
+            (steering.velocity_m_s - now.current_m_s.mid()).cap_magnitude(self.born.body.speed_m_s);
 
         let mut pings = Vec::new();
         for booking in self.modem.due(sensed, &|at| self.estimator.predict(at).time_s) {

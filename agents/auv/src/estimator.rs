@@ -37,4 +37,6 @@ pub struct Prediction {
     pub position_m: IntervalBox<3>,
     /// Velocity over ground in m/s.
     pub velocity_m_s: IntervalBox<3>,
+    /// The current in m/s.
+    pub current_m_s: IntervalBox<3>,
 }

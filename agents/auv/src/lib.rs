@@ -10,6 +10,7 @@
 //! | `tube_estimator.rs` | the state tube, online |
 //! | `state.rs` | position and clock as one set, contracted by measurements |
 //! | `motion.rs` | how far the body can have moved |
+//! | `current.rs` | the current, as a Doppler velocity log sees it |
 //! | `odometry.rs` | what it did from any remembered moment until now |
 //! | `history.rs` | the tube that is remembered |
 //! | `controller/` | hold, circle, waypoints, reynolds |
@@ -21,6 +22,7 @@
 mod auv;
 mod bounds;
 pub mod controller;
+pub mod current;
 pub mod estimator;
 mod history;
 pub mod medium_access;

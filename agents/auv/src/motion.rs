@@ -14,7 +14,9 @@ use crate::bounds::interval_box;
 pub struct Motion {
     speed_m_s: Interval,
     acceleration_m_s2: f64,
-    drift_m_s: IntervalBox<3>,
+    /// The current anywhere.
+    current_m_s: IntervalBox<3>,
+    disturbance_m_s: IntervalBox<3>,
     /// `dt/ds - 1`: true seconds gained per local second.
     gain: Interval,
     /// Bound of `dt/ds`.
@@ -22,13 +24,15 @@ pub struct Motion {
     stamp_s: f64,
 }
 
-/// A stretch of local time with what is known of the velocity through the water at its ends.
+/// A stretch of local time with what is known of the velocity through the water at its ends, and of the current.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
     /// Velocity at its beginning, in m/s.
     pub before_m_s: IntervalBox<3>,
     /// Velocity at its end, in m/s; the entire space when nothing is known yet.
     pub after_m_s: IntervalBox<3>,
+    /// The current met all along it, in m/s.
+    pub current_m_s: IntervalBox<3>,
     /// Local seconds from beginning to end.
     pub length_s: f64,
 }
@@ -56,7 +60,8 @@ impl Motion {
         Self {
             speed_m_s: Interval::centred(0.0, body.speed_m_s),
             acceleration_m_s2: body.acceleration_m_s2,
-            drift_m_s: interval_box(&body.current_m_s) + interval_box(&body.disturbance_m_s),
+            current_m_s: interval_box(&body.current_m_s),
+            disturbance_m_s: interval_box(&body.disturbance_m_s),
             gain,
             fastest: (one + gain).upper(),
             stamp_s: clock.stamp_ns as f64 * 1e-9,
@@ -73,14 +78,19 @@ impl Motion {
         known_m_s.inflate(self.slope() * self.longest(elapsed_s)).intersection(&self.any_velocity())
     }
 
-    /// Velocity over ground, in m/s.
-    pub fn over_ground(&self, velocity_m_s: &IntervalBox<3>) -> IntervalBox<3> {
-        *velocity_m_s + self.drift_m_s
+    /// Velocity over ground, in m/s, from that through the water and the current.
+    pub fn over_ground(&self, velocity_m_s: &IntervalBox<3>, current_m_s: &IntervalBox<3>) -> IntervalBox<3> {
+        *velocity_m_s + (*current_m_s + self.disturbance_m_s)
+    }
+
+    /// The most true seconds between two stamped moments that are `elapsed_s` apart by their stamps.
+    pub fn true_s(&self, elapsed_s: f64) -> f64 {
+        (self.longest(elapsed_s) * self.fastest).next_up()
     }
 
     /// Any displacement over ground within `elapsed_s` local seconds, forward or backward, in metres.
     pub fn anywhere_within(&self, elapsed_s: f64) -> IntervalBox<3> {
-        let ground_m_s = self.over_ground(&self.any_velocity());
+        let ground_m_s = self.over_ground(&self.any_velocity(), &self.current_m_s);
         let either_way = Interval::centred(0.0, self.longest(elapsed_s) * self.fastest);
         IntervalBox::from(ground_m_s.sides().map(|side| side * either_way))
     }
@@ -99,7 +109,7 @@ impl Motion {
         for axis in 0..3 {
             let envelope = Envelope::new(self, stretch, axis);
             let (mean, reached) = envelope.between(from_s, to_s);
-            let drift = self.drift_m_s[axis];
+            let drift = stretch.current_m_s[axis] + self.disturbance_m_s[axis];
             // dt = (1 + gain) ds: the mean for the 1, every velocity reached for the gain.
             displacement_m[axis] =
                 (mean + reached * self.gain + drift * (Interval::ONE + self.gain)) * elapsed_s;
@@ -276,6 +286,7 @@ mod tests {
             let stretch = Stretch {
                 before_m_s: around(first, errors.0),
                 after_m_s: around(velocity, errors.1),
+                current_m_s: motion().current_m_s,
                 length_s: 64.0 * step_s,
             };
             let motion = motion();
@@ -295,7 +306,8 @@ mod tests {
     #[test]
     fn the_roof_is_worth_its_price() {
         // Known 2 m/s at both ends of 0.2 s: the mean cannot be off by more than a quarter of acceleration times length.
-        let stretch = Stretch { before_m_s: around(2.0, 0.0), after_m_s: around(2.0, 0.0), length_s: 0.2 };
+        let (known_m_s, current_m_s) = (around(2.0, 0.0), motion().current_m_s);
+        let stretch = Stretch { before_m_s: known_m_s, after_m_s: known_m_s, current_m_s, length_s: 0.2 };
         let moved = Motion { gain: Interval::ZERO, fastest: 1.0, ..motion() }.over(&stretch, 0.0, 0.2);
         let without_drift = moved.displacement_m[0].width() - 0.2 * (0.1 + 0.2);
         assert!((without_drift - 2.0 * 0.25 * ACCELERATION_M_S2 * 0.2 * 0.2).abs() < 1e-6, "{without_drift}");

@@ -139,7 +139,8 @@ mod tests {
     fn eastbound(ticks: i64, horizon_ns: i64) -> Odometry {
         let mut odometry = Odometry::new(horizon_ns);
         let east_m_s = IntervalBox::from([Interval::ONE, Interval::ZERO, Interval::ZERO]);
-        let stretch = Stretch { before_m_s: east_m_s, after_m_s: east_m_s, length_s: 0.1 };
+        let current_m_s = IntervalBox::from([Interval::ZERO; 3]);
+        let stretch = Stretch { before_m_s: east_m_s, after_m_s: east_m_s, current_m_s, length_s: 0.1 };
         for tick in 0..ticks {
             let begun = LocalTime::from_ns(tick * TICK_NS);
             let x = Interval::centred(0.1 * tick as f64, 0.5e-3 * tick as f64);

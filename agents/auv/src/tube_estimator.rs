@@ -10,6 +10,7 @@ use shoal_bus::time::LocalTime;
 use shoal_interval::{Interval, IntervalBox};
 
 use crate::bounds::{interval, interval_box, measured};
+use crate::current::{self, Current};
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::history::History;
 use crate::motion::{Motion, Stretch};
@@ -24,6 +25,7 @@ pub struct TubeEstimator {
     stamp_s: f64,
     now: LocalTime,
     velocity_m_s: IntervalBox<3>,
+    current: Current,
     history: History,
     odometry: Odometry,
 }
@@ -40,6 +42,7 @@ impl TubeEstimator {
         Self {
             velocity_m_s: motion.any_velocity(),
             motion,
+            current: Current::new(&born.body),
             sound: Sound {
                 speed_m_s: interval(born.modem.sound_speed_m_s),
                 hearing_range_m: born.modem.hearing_range_m,
@@ -76,6 +79,36 @@ impl TubeEstimator {
         }
         emptied.get_or_insert(Emptied { stamp, by: Culprit::Inertial });
         since.intersection(&self.motion.any_velocity())
+    }
+
+    /// What is known of the current at the tick, contracted by each Doppler velocity log that came with an attitude. Contradictory,
+    /// it is what the AUV was told.
+    fn look_at_ground(&self, sensed: &Sensed, emptied: &mut Option<Emptied>) -> Current {
+        let mut current = self.current;
+        let mut since = self.now;
+        for event in &sensed.events {
+            let stamp = event.stamp;
+            let Sense::Dvl { velocity_m_s } = &event.sense else { continue };
+            let Some(drift_m_s) = drift_at(stamp, velocity_m_s, sensed) else { continue };
+            if stamp < since || stamp > sensed.stamp {
+                continue;
+            }
+            let before = current.later(self.motion.true_s(seconds(stamp - since)));
+            current = before.contracted(&drift_m_s).unwrap_or_else(|| {
+                emptied.get_or_insert(Emptied { stamp, by: Culprit::Dvl });
+                before.forgotten()
+            });
+            since = stamp;
+        }
+        current.later(self.motion.true_s(seconds(sensed.stamp - since)))
+    }
+
+    /// The current met since the last tick, `length_s` local seconds ago, if it is `after` now.
+    fn current_between(&self, after: &Current, length_s: f64) -> IntervalBox<3> {
+        let elapsed_s = self.motion.true_s(length_s);
+        let both = self.current.within(elapsed_s).intersection(&after.within(elapsed_s));
+        // A contradiction has made `after` forget what was known before.
+        if both.is_empty() { after.within(elapsed_s) } else { both }
     }
 
     /// The state after one event that is stamped `lag_s` local seconds before it; `way` leads there from the last tick.
@@ -123,8 +156,14 @@ impl Estimator for TubeEstimator {
         let mut contractions = 0;
         let after_m_s = self.look_at_log(sensed, &mut emptied);
         let begun = self.now;
-        let stretch =
-            Stretch { before_m_s: self.velocity_m_s, after_m_s, length_s: seconds(sensed.stamp - begun) };
+        let length_s = seconds(sensed.stamp - begun);
+        let current = self.look_at_ground(sensed, &mut emptied);
+        let stretch = Stretch {
+            before_m_s: self.velocity_m_s,
+            after_m_s,
+            current_m_s: self.current_between(&current, length_s),
+            length_s,
+        };
         let mut state = self.history.last();
         let mut since = begun;
         let mut slice: Option<State> = None;
@@ -164,19 +203,35 @@ impl Estimator for TubeEstimator {
         self.history.append(sensed.stamp, &slice, &state);
         self.now = sensed.stamp;
         self.velocity_m_s = after_m_s;
+        self.current = current;
         Estimate { state, slice, emptied, contractions }
     }
 
     fn predict(&self, at: LocalTime) -> Prediction {
         let length_s = seconds(at - self.now).max(0.0);
-        let stretch = Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, length_s };
+        let current_m_s = self.current.within(self.motion.true_s(length_s));
+        let stretch =
+            Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s };
         let state = self.history.last().moved(&self.motion.over(&stretch, 0.0, length_s));
         Prediction {
             time_s: state.true_time_s(self.local_s(at)),
             position_m: state.position_m,
-            velocity_m_s: self.motion.over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s)),
+            velocity_m_s: self
+                .motion
+                .over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s), &current_m_s),
+            current_m_s,
         }
     }
+}
+
+/// Current plus disturbance at `stamp`, in m/s, if log and attitude were read then too.
+fn drift_at(stamp: LocalTime, over_ground_m_s: &[Measured; 3], sensed: &Sensed) -> Option<IntervalBox<3>> {
+    sensed.events.iter().filter(|event| event.stamp == stamp).find_map(|event| match event.sense {
+        Sense::Inertial { heading_rad, pitch_rad, speed_m_s } => {
+            Some(current::drift(heading_rad, pitch_rad, speed_m_s, over_ground_m_s))
+        }
+        _ => None,
+    })
 }
 
 /// `R(heading, pitch) (speed, 0, 0)`, in m/s.

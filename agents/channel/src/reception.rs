@@ -155,7 +155,7 @@ pub enum Verdict {
 /// let physical = PhysicalLayer {
 ///     source_level_db: 185.0,
 ///     centre_hz: 25_000.0,
-///     bandwidth_hz: 4_000.0,
+///     bandwidth_hz: 1_000.0,
 ///     bit_rate_bit_s: 1_000.0,
 ///     preamble_s: 0.05,
 ///     modulation: Modulation::Bpsk,
@@ -167,7 +167,7 @@ pub enum Verdict {
 /// let settings = EarSettings { noise_db: 75.0, physical, fading, sense_ns: 0 };
 /// let mut ear = Ear::new(settings, Draws::new(1, Purpose::Reception, AuvId(0), Noise::Uniform));
 ///
-/// // Two packets of 256 bits, equally loud, the second half a packet later.
+/// // Two packets of 256 bits, equally loud, one half a packet after the other.
 /// let arrival = |from, start_ns| Arrival {
 ///     from: AuvId(from),
 ///     sequence: 0,

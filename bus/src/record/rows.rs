@@ -139,7 +139,7 @@ impl ReportRow {
 pub struct EmptiedRow {
     /// Local time of the measurement that left nothing, in nanoseconds.
     pub at_local_ns: LocalTime,
-    /// `inertial`, `depth`, `gnss`, `ping` or `sabotage`.
+    /// `inertial`, `dvl`, `depth`, `gnss`, `ping` or `sabotage`.
     pub by: String,
     /// Who sent the ping, for `ping`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -150,6 +150,7 @@ impl EmptiedRow {
     fn new(emptied: Emptied) -> Self {
         let (by, sender) = match emptied.by {
             Culprit::Inertial => ("inertial", None),
+            Culprit::Dvl => ("dvl", None),
             Culprit::Depth => ("depth", None),
             Culprit::Gnss => ("gnss", None),
             Culprit::Ping(sender) => ("ping", Some(sender)),

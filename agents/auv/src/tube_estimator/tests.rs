@@ -82,7 +82,7 @@ proptest! {
         arrivals in prop::collection::vec(
             (0..TICKS as i64 * PERIOD_NS, prop_oneof![Just(0), 0..5_000_000_000_i64]), 0..40),
     ) {
-        let mut born = told(drift, 0.05, 0.0);
+        let mut born = told(drift, 0.05);
         // Some packets are longer than what is remembered.
         born.orders.estimator = Orders::Tube { horizon_ns: 40 * PERIOD_NS };
         let truth = Truth::new(&born, &pushes);
@@ -95,7 +95,7 @@ fn steady() -> Pushes {
     let wave = |index: usize, which: usize| pxfm::f_sin((index * (which + 3)) as f64);
     let pushes = (0..2 * (TICKS + 10)).map(|index| std::array::from_fn(|which| wave(index, which)));
     pushes
-        .map(|mut push: [f64; 16]| {
+        .map(|mut push: [f64; 19]| {
             push[1..4].fill(0.0);
             push
         })
@@ -104,7 +104,7 @@ fn steady() -> Pushes {
 
 /// Width of the last box in m, and of the last clock interval in s, when a ping arrives every 100 ms with packets of `length_ns`.
 fn last_widths(length_ns: i64) -> (f64, f64) {
-    let born = told(1e-6, 0.05, 0.0);
+    let born = told(1e-6, 0.05);
     let truth = Truth::new(&born, &steady());
     let arrivals: Vec<_> =
         (0..TICKS as i64).map(|index| (index * PERIOD_NS + 12_345_678, length_ns)).collect();
@@ -125,7 +125,7 @@ fn a_late_ping_costs_what_the_odometry_lost_since() {
 
 #[test]
 fn a_ping_beyond_the_horizon_is_ignored() {
-    let mut born = told(1e-6, 0.05, 0.0);
+    let mut born = told(1e-6, 0.05);
     born.orders.estimator = Orders::Tube { horizon_ns: 20 * PERIOD_NS };
     let truth = Truth::new(&born, &steady());
     let width_m = |arrivals: &[(i64, i64)]| {
@@ -136,4 +136,80 @@ fn a_ping_beyond_the_horizon_is_ignored() {
     let never = width_m(&[]);
     assert!(width_m(&[(arrived_ns, 19 * PERIOD_NS)]) < never - 0.1);
     assert!((width_m(&[(arrived_ns, 23 * PERIOD_NS)]) - never).abs() < 1e-6);
+}
+
+/// A Doppler velocity log at every so many ticks.
+fn over_ground(truth: &Truth, every: usize) -> Vec<Vec<Event>> {
+    let at = |tick: usize| truth.dvl((tick as i64 + 1) * PERIOD_NS);
+    (0..TICKS).map(|tick| if tick % every == every - 1 { vec![at(tick)] } else { Vec::new() }).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Whatever current the AUV meets within its bounds, what a Doppler velocity log makes of it never loses the truth; nor do
+    /// late pings carried on by it.
+    #[test]
+    fn a_doppler_velocity_log_never_loses_the_truth(
+        pushes in lives(),
+        drift in prop_oneof![Just(0.0), 1e-6..0.02_f64],
+        (error_m_s, change_m_s2, step_m_s) in (
+            0.05..1.0_f64,
+            prop_oneof![Just(0.0), 0.001..0.5_f64],
+            prop_oneof![Just(0.0), 0.001..0.05_f64],
+        ),
+        every in 1usize..20,
+        arrivals in prop::collection::vec((0..TICKS as i64 * PERIOD_NS, 0..5_000_000_000_i64), 0..10),
+    ) {
+        let mut born = told(drift, error_m_s);
+        born.body.current_change_m_s2 = [change_m_s2, 0.0, 0.3 * change_m_s2];
+        born.body.current_step_m_s = [step_m_s; 3];
+        let truth = Truth::new(&born, &pushes);
+        let mut events = over_ground(&truth, every);
+        for (told, late) in events.iter_mut().zip(heard(&truth, &arrivals, TICKS)) {
+            told.extend(late);
+        }
+        enclosed(&born, &truth, &events)?;
+    }
+}
+
+#[test]
+fn a_doppler_velocity_log_narrows_the_box_in_an_uncertain_current() {
+    let grown_m = |change_m_s2: f64, every: usize| {
+        let mut born = told(1e-6, 0.5);
+        born.body.current_change_m_s2 = [change_m_s2; 3];
+        let truth = Truth::new(&born, &steady());
+        let estimates = enclosed(&born, &truth, &over_ground(&truth, every)).unwrap();
+        let width_m = |tick: usize| estimates[tick].state.position_m[1].width();
+        width_m(TICKS - 1) - width_m(0)
+    };
+    let (without, uniform, varied) = (grown_m(0.0, usize::MAX), grown_m(0.0, 5), grown_m(0.02, 5));
+    // 9.9 s of a current within +-0.5 m/s, and of a disturbance, log and attitude within about +-0.1 m/s.
+    assert!(without > 10.0 && without < 12.5, "{without}");
+    assert!(uniform < 0.3 * without, "{uniform}");
+    assert!(varied < 0.4 * without && uniform < varied, "{varied}");
+}
+
+#[test]
+fn a_current_that_was_ruled_out_is_told_and_forgotten() {
+    let born = told(1e-6, 0.3);
+    let truth = Truth::new(&born, &steady());
+    let mut estimator = TubeEstimator::new(&born);
+    let mut step = |tick: i64, stray_m_s: f64| {
+        let stamp = LocalTime::from_ns((tick + 1) * PERIOD_NS);
+        let mut dvl = truth.dvl(stamp.ns());
+        if let Sense::Dvl { velocity_m_s } = &mut dvl.sense {
+            velocity_m_s[1].value += stray_m_s;
+        }
+        let events = vec![truth.inertial(stamp.ns()), dvl];
+        let emptied = estimator.update(&Sensed { tick: tick as u64, stamp, events }).emptied;
+        (emptied, estimator.predict(stamp).current_m_s)
+    };
+    let (emptied, known) = step(0, 0.0);
+    assert!(emptied.is_none() && known.width() < 0.2, "{known:?}");
+    let (emptied, known) = step(1, 1.0);
+    assert_eq!(emptied.map(|emptied| emptied.by), Some(Culprit::Dvl));
+    assert_eq!(known, interval_box(&born.body.current_m_s));
+    let (emptied, known) = step(2, 0.0);
+    assert!(emptied.is_none() && known.width() < 0.2, "{known:?}");
 }

@@ -20,12 +20,13 @@ const DVL_ERROR_M_S: f64 = 0.01;
 /// Added to stated bounds, for the rounding of this file.
 const ROUNDING: f64 = 1e-9;
 
-/// What is decided at random at each knot, in [-1, 1]: rate, acceleration, change of current, disturbance, and errors.
-pub type Pushes = Vec<[f64; 16]>;
+/// What is decided at random at each knot, in [-1, 1]: rate, acceleration, change of current, disturbance, errors, and
+/// the current's step.
+pub type Pushes = Vec<[f64; 19]>;
 
 /// Any pushes for `ticks` ticks: somewhere within their bounds, or always at one.
 pub fn pushes(ticks: usize) -> impl Strategy<Value = Pushes> {
-    let anywhere = prop::collection::vec(prop::array::uniform16(-1.0..=1.0_f64), 2 * ticks);
+    let anywhere = prop::collection::vec(prop::array::uniform19(-1.0..=1.0_f64), 2 * ticks);
     (anywhere, any::<bool>()).prop_map(|(pushes, at_bounds)| match at_bounds {
         true => pushes.into_iter().map(|push| push.map(f64::signum)).collect(),
         false => pushes,
@@ -48,6 +49,7 @@ struct Knot {
     true_per_local: f64,
     acceleration_m_s2: Vector3<f64>,
     current_change_m_s2: Vector3<f64>,
+    current_step_m_s: Vector3<f64>,
 }
 
 /// The whole truth of one AUV, from local time zero.
@@ -61,7 +63,13 @@ impl Truth {
     /// The truth that these pushes make within the bounds told to `born`.
     pub fn new(born: &Born, pushes: &Pushes) -> Self {
         let body = &born.body;
-        let current_bounds = body.current_m_s;
+        let steps_m_s = Vector3::from(body.current_step_m_s);
+        // The current's steady part keeps half a step away from the bounds.
+        let current_bounds: [Bounds; 3] = std::array::from_fn(|axis| {
+            let Bounds { lower, upper } = body.current_m_s[axis];
+            let half_m_s = 0.5 * steps_m_s[axis] + ROUNDING;
+            Bounds::new(lower + half_m_s, upper - half_m_s)
+        });
         let mut start = Moment {
             true_s: born.clock.offset_s.mid(),
             position_m: Vector3::zeros(),
@@ -89,8 +97,9 @@ impl Truth {
                 true_per_local,
                 acceleration_m_s2: (velocity_after - start.velocity_m_s) / length_s,
                 current_change_m_s2: (current_after - start.current_m_s) / length_s,
+                current_step_m_s: three(16).component_mul(&steps_m_s) * 0.5,
             };
-            start = knot.after(KNOT_NS as f64 * 1e-9);
+            start = Moment { current_m_s: current_after, ..knot.after(KNOT_NS as f64 * 1e-9) };
             knots.push(knot);
         }
         Self { born: born.clone(), knots, pushes: pushes.clone() }
@@ -160,7 +169,8 @@ impl Truth {
 impl Knot {
     fn after(&self, local_s: f64) -> Moment {
         let elapsed_s = local_s * self.true_per_local;
-        let Moment { true_s, position_m, velocity_m_s, current_m_s, disturbance_m_s } = self.start;
+        let Moment { true_s, position_m, velocity_m_s, disturbance_m_s, .. } = self.start;
+        let current_m_s = self.start.current_m_s + self.current_step_m_s;
         let change_m_s2 = self.acceleration_m_s2 + self.current_change_m_s2;
         let ground_m_s = velocity_m_s + current_m_s + disturbance_m_s;
         Moment {
@@ -180,15 +190,14 @@ fn attitude(velocity_m_s: &Vector3<f64>) -> (f64, f64, f64) {
     (heading_rad, pxfm::f_atan2(velocity_m_s.z, horizontal_m_s), velocity_m_s.norm())
 }
 
-/// An AUV in a current known to `current_error_m_s` that changes by `change_m_s2` at most, with a clock that drifts by `drift`.
-pub fn told(drift: f64, current_error_m_s: f64, change_m_s2: f64) -> Born {
+/// An AUV in a current known to `current_error_m_s`, with a clock that drifts by `drift`.
+pub fn told(drift: f64, current_error_m_s: f64) -> Born {
     let mut born = newborn(MediumAccess::Silent);
     let around = |value: f64, error: f64| Bounds::new(value - error, value + error);
     born.clock.drift = drift;
     born.clock.offset_s = around(0.2, 1e-5);
     born.prior_position_m = [around(0.3, 1.0); 3];
-    born.body.current_m_s = [0.2, -0.1, 0.0].map(|middle| around(middle, current_error_m_s));
-    born.body.current_change_m_s2 = [change_m_s2; 3];
+    born.body.current_m_s = [0.2, -0.1, 0.0].map(|middle| around(middle, current_error_m_s + ROUNDING));
     born.body.disturbance_m_s = [around(0.0, DISTURBANCE_M_S + ROUNDING); 3];
     born
 }

@@ -91,11 +91,11 @@ impl Profile {
             1500.0 * (1.0 + 0.00737 * (eta - 1.0 + f_exp(-eta)))
         };
         // A chord over a step h errs by h² c''/8, and c'' goes as exp(-eta): the error is the same in every layer when
-        // equal steps are taken in exp(-eta / 2), 0.16 m/s for steps of 0.17.
+        // equal steps are taken in exp(-eta / 2), 0.15 m/s for steps of 0.165.
         let spread = |depth_m: f64| f_exp(-(depth_m - AXIS_M) / AXIS_M);
         let deepest_m = if bottom_m > 0.0 { bottom_m.min(DEEPEST_M) } else { DEEPEST_M };
         let (start, end) = (spread(0.0), spread(deepest_m));
-        let layers = ((start - end) / 0.17).ceil().max(1.0);
+        let layers = ((start - end) / 0.165).ceil().max(1.0);
         let depth_m = |index: f64| AXIS_M * (1.0 - f_log(start + (end - start) * index / layers));
         let inner = (1..layers as usize).map(|index| depth_m(index as f64));
         let depths_m = [0.0].into_iter().chain(inner).chain([deepest_m]);

@@ -288,7 +288,40 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn nodes_that_change_nothing_change_nothing(
+        gradient_1_s in prop_oneof![-0.1..0.1_f64, -0.02..0.02_f64, Just(0.0)],
+        cuts in prop::collection::vec(1.0..999.0_f64, 1..9),
+        (from_m, to_m, range_m) in (0.0..1_000.0_f64, 0.0..1_000.0_f64, 0.0..10_000.0_f64),
+    ) {
+        // One layer is solved in closed form, many by search.
+        let speed_m_s = |depth_m: f64| 1_500.0 + gradient_1_s * depth_m;
+        let whole = water(&[(0.0, speed_m_s(0.0)), (1_000.0, speed_m_s(1_000.0))], 1_000.0);
+        let mut depths_m: Vec<f64> = [0.0, 1_000.0].into_iter().chain(cuts).collect();
+        depths_m.sort_by(f64::total_cmp);
+        depths_m.dedup_by(|one, other| *one - *other < 0.01);
+        let nodes: Vec<(f64, f64)> = depths_m.iter().map(|&depth_m| (depth_m, speed_m_s(depth_m))).collect();
+        let cut = water(&nodes, 1_000.0);
+        if let (Some(one), Some(other)) =
+            (whole.direct(from_m, to_m, range_m, None), cut.direct(from_m, to_m, range_m, None))
+        {
+            prop_assert!((one.travel_s - other.travel_s).abs() < 1e-11, "{} {}", one.travel_s, other.travel_s);
+            prop_assert!((one.length_m - other.length_m).abs() < 1e-6 * one.length_m + 1e-9);
+            prop_assert!((one.departure.sin - other.departure.sin).abs() < 1e-7);
+        } else {
+            // A ray that all but touches a boundary may be let through by the one and not by the other.
+            let apex = |ray: Ray| 1.0 / ray.slowness_s_m;
+            let touches = |ray: Ray| [0.0, 1_000.0].iter().any(|&m| (apex(ray) / speed_m_s(m) - 1.0).abs() < 1e-9);
+            let only = whole.direct(from_m, to_m, range_m, None).or(cut.direct(from_m, to_m, range_m, None));
+            prop_assert!(only.is_none_or(touches));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
     fn every_direct_ray_arrives((water, from_m, to_m, range_m) in places_in(2.0)) {
