@@ -115,12 +115,12 @@
 //! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
 //! | `frame_bytes` | | 64 | bytes that one ping may have: [`PING_BYTES`] to [`FRAME_BYTES_MAX`] |
 //! | `addresses` | | none | so many devices can be told apart: a run with more is warned of |
-//! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, or a table with the `name` `"slotted"` or `"csma"` |
-//! | `access.slot_s` | s | needed | `"slotted"`: length of a slot, in true time; holds a packet and its way to the guard range |
+//! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, `"slotted"`, `"csma"`, or a table with that `name` |
+//! | `access.slot_s` | s | `ping_period_s` / `slots` | `"slotted"`: length of a slot, in true time; holds a packet and its way to the guard range |
 //! | `access.slots` | | all AUVs | `"slotted"`: slots in a frame; AUV i has slot i modulo this |
 //! | `access.guard_range_m` | m | diagonal of the area | `"slotted"`: slots do not overlap for receivers up to this far away |
-//! | `access.listen_s` | s | needed | `"csma"`: the medium must have been quiet for so long, in local time |
-//! | `access.backoff_s` | s | needed | `"csma"`: mean time until a ping that was held back is tried again, in local time |
+//! | `access.listen_s` | s | one packet | `"csma"`: the medium must have been quiet for so long, in local time |
+//! | `access.backoff_s` | s | two packets | `"csma"`: mean time until a ping that was held back is tried again, in local time |
 //! | `duty_cycle` | | always awake | when it listens, as a table: |
 //! | `duty_cycle.period_s` | s | needed | it wakes so often, in local time |
 //! | `duty_cycle.awake_s` | s | needed | and listens for so long; a packet at least |

@@ -14,7 +14,7 @@ fn every_scenario_parses_and_is_called_what_it_is_called() {
     for entry in library() {
         let scenario = scenario(entry.name);
         assert_eq!(scenario.name, entry.name);
-        assert!(!scenario.summary.is_empty() && scenario.source.starts_with("001 §"), "{}", entry.name);
+        assert!(!scenario.summary.is_empty() && !scenario.source.is_empty(), "{}", entry.name);
     }
 }
 
