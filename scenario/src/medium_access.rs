@@ -184,7 +184,9 @@ fn holds_a_packet(
         ),
         "runs into the next slot",
         match table.has("slot_s") {
-            true => format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s)),
+            true => {
+                format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s))
+            }
             false => format!(
                 "write `ping_period_s = {}` or more, or a shorter `guard_range_m`",
                 rounded_up(needed_s * f64::from(slots))

@@ -84,7 +84,7 @@ proptest! {
     ) {
         let mut born = told(drift, 0.05);
         // Some packets are longer than what is remembered.
-        born.orders.estimator = Orders::Tube { horizon_ns: 40 * PERIOD_NS };
+        born.orders.estimator = Orders::Tube(TubeSettings::forward(40 * PERIOD_NS));
         let truth = Truth::new(&born, &pushes);
         enclosed(&born, &truth, &heard(&truth, &arrivals, TICKS))?;
     }
@@ -126,7 +126,7 @@ fn a_late_ping_costs_what_the_odometry_lost_since() {
 #[test]
 fn a_ping_beyond_the_horizon_is_ignored() {
     let mut born = told(1e-6, 0.05);
-    born.orders.estimator = Orders::Tube { horizon_ns: 20 * PERIOD_NS };
+    born.orders.estimator = Orders::Tube(TubeSettings::forward(20 * PERIOD_NS));
     let truth = Truth::new(&born, &steady());
     let width_m = |arrivals: &[(i64, i64)]| {
         let estimates = enclosed(&born, &truth, &heard(&truth, arrivals, TICKS)).unwrap();
