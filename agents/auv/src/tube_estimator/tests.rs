@@ -2,6 +2,7 @@ mod truth;
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
+use shoal_bus::message::TubeSettings;
 
 use self::truth::{Pushes, Truth, pushes, told};
 use super::*;
