@@ -5,7 +5,7 @@ use shoal_interval::IntervalBox;
 use shoal_tube::Tube;
 
 use crate::state::State;
-use crate::tube_estimator::seconds;
+use crate::travel::seconds;
 
 /// The tube of (clock offset, x, y, z) over the local time since birth, a slice a tick.
 #[derive(Debug)]

@@ -11,6 +11,7 @@
 //! | `state.rs` | position and clock as one set, contracted by measurements |
 //! | `motion.rs` | how far the body can have moved |
 //! | `current.rs` | the current, as a Doppler velocity log sees it |
+//! | `travel.rs` | how it travels from tick to tick, by log and attitude |
 //! | `odometry.rs` | what it did from any remembered moment until now |
 //! | `history.rs` | the tube that is remembered |
 //! | `controller/` | hold, circle, waypoints, reynolds |
@@ -36,6 +37,7 @@ pub mod odometry;
 pub mod rings;
 mod sabotage;
 pub mod state;
+pub mod travel;
 pub mod tube_estimator;
 
 pub use auv::Auv;

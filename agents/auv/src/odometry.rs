@@ -12,7 +12,7 @@ use shoal_interval::{Interval, IntervalBox};
 
 use crate::motion::{Motion, Moved, Stretch};
 use crate::state::State;
-use crate::tube_estimator::seconds;
+use crate::travel::seconds;
 
 /// What happened between two moments, the earlier first.
 #[derive(Clone, Copy, Debug)]

@@ -4,28 +4,24 @@
 //! fixes, depths and pings contract it where they are measured (seed 001, section 5.3). Every measurement happens at a known local
 //! time, so no clock is ever inverted. What is told late contracts the state that was, and odometry carries it on.
 
-use shoal_bus::message::{Born, Culprit, Emptied, Estimator as Orders, Event, Measured, Sense, Sensed};
+use shoal_bus::message::{Born, Culprit, Emptied, Estimator as Orders, Event, Sense, Sensed};
 use shoal_bus::ping::Ping;
 use shoal_bus::time::LocalTime;
-use shoal_interval::{Interval, IntervalBox};
+use shoal_interval::Interval;
 
-use crate::bounds::{interval, interval_box, measured};
-use crate::current::{self, Current};
+use crate::bounds::{interval, interval_box};
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::history::History;
-use crate::motion::{Motion, Stretch};
 use crate::odometry::{Leg, Odometry, Way};
 use crate::state::{Contradiction, Moment, Sound, State};
+use crate::travel::{Travel, seconds};
 
 /// Encloses the state by a tube.
 pub struct TubeEstimator {
-    motion: Motion,
+    travel: Travel,
     sound: Sound,
     timestamp_s: f64,
     stamp_s: f64,
-    now: LocalTime,
-    velocity_m_s: IntervalBox<3>,
-    current: Current,
     history: History,
     odometry: Odometry,
 }
@@ -33,7 +29,6 @@ pub struct TubeEstimator {
 impl TubeEstimator {
     /// The tube that begins with what the AUV was told at birth.
     pub fn new(born: &Born) -> Self {
-        let motion = Motion::new(&born.body, &born.clock);
         let horizon_ns = match born.orders.estimator {
             Orders::Tube(settings) => settings.horizon_ns,
             Orders::Ekf(_) | Orders::DeadReckoning => 0,
@@ -43,16 +38,13 @@ impl TubeEstimator {
             position_m: interval_box(&born.prior_position_m),
         };
         Self {
-            velocity_m_s: motion.any_velocity(),
-            motion,
-            current: Current::new(&born.body),
+            travel: Travel::new(born),
             sound: Sound {
                 speed_m_s: interval(born.modem.sound_speed_m_s),
                 hearing_range_m: born.modem.hearing_range_m,
             },
             timestamp_s: born.modem.timestamp_s,
             stamp_s: born.clock.stamp_ns as f64 * 1e-9,
-            now: born.birth,
             history: History::new(born.birth, &state, horizon_ns),
             odometry: Odometry::new(horizon_ns),
         }
@@ -65,55 +57,6 @@ impl TubeEstimator {
         Interval::centred(seconds, self.stamp_s + seconds.abs() * f64::EPSILON)
     }
 
-    /// The velocity at the tick: what the log says, what was possible, or (contradictory) the log alone.
-    fn look_at_log(&self, sensed: &Sensed, emptied: &mut Option<Emptied>) -> IntervalBox<3> {
-        let possible = self.motion.velocity_after(&self.velocity_m_s, seconds(sensed.stamp - self.now));
-        let mut logs = sensed.events.iter().filter_map(|event| match event.sense {
-            Sense::Inertial { heading_rad, pitch_rad, speed_m_s } => {
-                Some((event.stamp, velocity(heading_rad, pitch_rad, speed_m_s)))
-            }
-            _ => None,
-        });
-        let Some((stamp, logged)) = logs.next_back() else { return possible };
-        let since = self.motion.velocity_after(&logged, seconds(sensed.stamp - stamp));
-        let both = possible.intersection(&since);
-        if !both.is_empty() {
-            return both;
-        }
-        emptied.get_or_insert(Emptied { stamp, by: Culprit::Inertial });
-        since.intersection(&self.motion.any_velocity())
-    }
-
-    /// What is known of the current at the tick, contracted by each Doppler velocity log that came with an attitude. Contradictory,
-    /// it is what the AUV was told.
-    fn look_at_ground(&self, sensed: &Sensed, emptied: &mut Option<Emptied>) -> Current {
-        let mut current = self.current;
-        let mut since = self.now;
-        for event in &sensed.events {
-            let stamp = event.stamp;
-            let Sense::Dvl { velocity_m_s } = &event.sense else { continue };
-            let Some(drift_m_s) = drift_at(stamp, velocity_m_s, sensed) else { continue };
-            if stamp < since || stamp > sensed.stamp {
-                continue;
-            }
-            let before = current.later(self.motion.true_s(seconds(stamp - since)));
-            current = before.contracted(&drift_m_s).unwrap_or_else(|| {
-                emptied.get_or_insert(Emptied { stamp, by: Culprit::Dvl });
-                before.forgotten()
-            });
-            since = stamp;
-        }
-        current.later(self.motion.true_s(seconds(sensed.stamp - since)))
-    }
-
-    /// The current met since the last tick, `length_s` local seconds ago, if it is `after` now.
-    fn current_between(&self, after: &Current, length_s: f64) -> IntervalBox<3> {
-        let elapsed_s = self.motion.true_s(length_s);
-        let both = self.current.within(elapsed_s).intersection(&after.within(elapsed_s));
-        // A contradiction has made `after` forget what was known before.
-        if both.is_empty() { after.within(elapsed_s) } else { both }
-    }
-
     /// The state after one event that is stamped `lag_s` local seconds before it; `way` leads there from the last tick.
     ///
     /// What belongs to the time before the last tick, as the beginning of a long packet does, contracts the state that was.
@@ -123,7 +66,9 @@ impl TubeEstimator {
         if lag_s <= self.timestamp_s {
             return self.contracted(state, event, lag_s);
         }
-        let Some((then, since)) = self.odometry.recall(event.stamp, &self.motion) else { return Ok(*state) };
+        let Some((then, since)) = self.odometry.recall(event.stamp, self.travel.motion()) else {
+            return Ok(*state);
+        };
         let since = since.then(way);
         let then = self.contracted(&then.intersection(&since.back(state)), event, 0.0)?;
         let known = state.intersection(&since.ahead(&then));
@@ -147,7 +92,7 @@ impl TubeEstimator {
                     stamp_s: stamp_s.inflate(self.timestamp_s),
                     apart_s: lag_s + self.timestamp_s + 2.0 * self.stamp_s,
                 };
-                state.with_ping(&ping, &self.sound, &arrival, &self.motion)
+                state.with_ping(&ping, &self.sound, &arrival, self.travel.motion())
             }
         }
     }
@@ -158,16 +103,8 @@ impl Estimator for TubeEstimator {
         let mut emptied = None;
         let mut contractions = 0;
         let mut rejected = 0;
-        let after_m_s = self.look_at_log(sensed, &mut emptied);
-        let begun = self.now;
-        let length_s = seconds(sensed.stamp - begun);
-        let current = self.look_at_ground(sensed, &mut emptied);
-        let stretch = Stretch {
-            before_m_s: self.velocity_m_s,
-            after_m_s,
-            current_m_s: self.current_between(&current, length_s),
-            length_s,
-        };
+        let begun = self.travel.now();
+        let stretch = self.travel.advance(sensed, &mut emptied);
         let mut state = self.history.last();
         let mut since = begun;
         let mut slice: Option<State> = None;
@@ -177,7 +114,7 @@ impl Estimator for TubeEstimator {
         loop {
             // All events up to the next moment are told before the tube moves on to it.
             let next = events.peek().map_or(sensed.stamp, |event| event.stamp.clamp(since, sensed.stamp));
-            let moved = self.motion.over(&stretch, seconds(since - begun), seconds(next - begun));
+            let moved = self.travel.motion().over(&stretch, seconds(since - begun), seconds(next - begun));
             let before = state;
             state = state.moved(&moved);
             way = way.then(&Way::from(&moved));
@@ -206,50 +143,12 @@ impl Estimator for TubeEstimator {
         let slice = slice.unwrap_or(state);
         self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.history.last(), stretch, way });
         self.history.append(sensed.stamp, &slice, &state);
-        self.now = sensed.stamp;
-        self.velocity_m_s = after_m_s;
-        self.current = current;
         Estimate { state, slice, emptied, contractions, rejected, components: 1, gaussian: None }
     }
 
     fn predict(&self, at: LocalTime) -> Prediction {
-        let length_s = seconds(at - self.now).max(0.0);
-        let current_m_s = self.current.within(self.motion.true_s(length_s));
-        let stretch =
-            Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s };
-        let state = self.history.last().moved(&self.motion.over(&stretch, 0.0, length_s));
-        Prediction {
-            time_s: state.true_time_s(self.local_s(at)),
-            position_m: state.position_m,
-            velocity_m_s: self
-                .motion
-                .over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s), &current_m_s),
-            current_m_s,
-        }
+        self.travel.predict(&self.history.last(), at, self.local_s(at))
     }
-}
-
-/// Current plus disturbance at `stamp`, in m/s, if log and attitude were read then too.
-fn drift_at(stamp: LocalTime, over_ground_m_s: &[Measured; 3], sensed: &Sensed) -> Option<IntervalBox<3>> {
-    sensed.events.iter().filter(|event| event.stamp == stamp).find_map(|event| match event.sense {
-        Sense::Inertial { heading_rad, pitch_rad, speed_m_s } => {
-            Some(current::drift(heading_rad, pitch_rad, speed_m_s, over_ground_m_s))
-        }
-        _ => None,
-    })
-}
-
-/// `R(heading, pitch) (speed, 0, 0)`, in m/s.
-fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> IntervalBox<3> {
-    let (sin_heading, cos_heading) = measured(heading_rad).sin_cos();
-    let (sin_pitch, cos_pitch) = measured(pitch_rad).sin_cos();
-    let speed = measured(speed_m_s);
-    IntervalBox::from([speed * cos_pitch * cos_heading, speed * cos_pitch * sin_heading, speed * sin_pitch])
-}
-
-/// Seconds of a difference of stamps; exact below 104 days, where nanoseconds are whole doubles, but for the last bit.
-pub(crate) fn seconds(ns: i64) -> f64 {
-    ns as f64 * 1e-9
 }
 
 #[cfg(test)]
