@@ -70,6 +70,44 @@ pub struct Containment {
     /// AUVs that lost the truth after they had heard something false: counted apart.
     #[serde(default)]
     pub misled: Misled,
+    /// What kidnapped AUVs stated before they noticed: counted apart. Absent where the scenario kidnaps nobody.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub kidnapped: Option<Kidnapped>,
+    /// What the assumptions about wrong pings are worth, for the groups that say how likely a ping is right.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub assumptions: Vec<Assumption>,
+}
+
+/// Bodies carried elsewhere without their minds being told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Kidnapped {
+    /// How many the scenario declares.
+    pub kidnappings: u32,
+    /// How many were noticed: the AUV said that nothing was left of its set.
+    pub noticed: u32,
+    /// The longest time until then, in seconds; absent when none was noticed.
+    pub noticed_after_s: Option<f64>,
+    /// Enclosures that did not hold the truth until then; not among [`Containment::violations`]. Later ones are.
+    pub violations: u64,
+}
+
+/// What it is worth to assume that at most `tolerated` of any `window` pings in a row are wrong: seed 004, section 3.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Assumption {
+    /// Name of the group.
+    pub group: String,
+    /// m.
+    pub window: u16,
+    /// q.
+    pub tolerated: u16,
+    /// How likely a ping is right, as the scenario says.
+    pub inlier_probability: f64,
+    /// The probability that any one window keeps to the assumption.
+    pub window_holds: f64,
+    /// The most pings that an AUV of the group heard.
+    pub pings: u64,
+    /// Its set then holds the truth with at least this probability, whatever happened before.
+    pub holds: f64,
 }
 
 /// What AUVs stated that had heard something false before: a ping that came the long way round (an outlier), or one whose

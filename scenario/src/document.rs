@@ -7,6 +7,7 @@ use crate::body::Catalogues;
 use crate::current::fastest_current_m_s;
 use crate::diagnostics::{Findings, ScenarioErrors};
 use crate::environment::{environment, norm};
+use crate::fault::faults;
 use crate::group::{GroupRead, auvs_written, group, group_names, name_is_good};
 use crate::model::{Environment, Level, Noise, OnCrash, Scenario, SoundSpeed, WaterSabotage};
 use crate::reader::Table;
@@ -84,6 +85,7 @@ fn read(table: Table<'_>) -> Option<Scenario> {
     sound_outruns_bodies(&table, environment.as_ref(), &groups);
     let window_ns = window(&table, &groups);
     let sabotage = sabotage(&table, auvs, duration_ns);
+    let faults = faults(&table, auvs, duration_ns, environment.as_ref());
     table.finish();
     Some(Scenario {
         name: name?.to_string(),
@@ -98,6 +100,7 @@ fn read(table: Table<'_>) -> Option<Scenario> {
         environment: environment?,
         groups: groups.into_iter().map(|read| read.group).collect::<Option<_>>()?,
         sabotage: sabotage?,
+        faults: faults?,
     })
 }
 

@@ -80,6 +80,10 @@ fn outliers(table: Table<'_>) -> Option<Outliers> {
             Some(None)
         }
     };
+    let inlier_probability = match table.get("inlier_probability") {
+        None => Some(None),
+        Some(value) => table.number_in("inlier_probability", value, Rule::Within(0.0, 1.0)).map(Some),
+    };
     let (window_value, tolerated_value) = (window.unwrap_or(RINGS_MAX), tolerated.unwrap_or(0));
     if tolerated_value >= window_value {
         table.refuse(
@@ -97,6 +101,7 @@ fn outliers(table: Table<'_>) -> Option<Outliers> {
         window: window? as u16,
         tolerated: tolerated? as u16,
         margin: margin?.map(|margin| margin as u16),
+        inlier_probability: inlier_probability?,
     })
 }
 

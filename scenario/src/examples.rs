@@ -9,6 +9,7 @@ pub(crate) fn example_in(table: &str, key: &str) -> String {
         ("[environment.current_field]", "speed_m_s") => "0.3",
         ("[environment.sea.bottom]", "sound_speed_m_s") => "1650",
         ("[environment.sea.fading]", "kind") => "\"rician\"",
+        ("[[fault]]", "kind") => "\"kidnap\"",
         ("[group.modem]", "like") => "\"micromodem-psk\"",
         ("[group.modem.access]", "name") => "\"aloha\"",
         ("[group.modem.duty_cycle]", "period_s") => "10",
@@ -136,6 +137,10 @@ fn example(key: &str) -> String {
         "trusts" => "[\"blue\"]",
         "shifted_truth" => "{ auv = 0, at_s = 5 }",
         "auv" => "0",
+        "known" => "false",
+        "to_m" => "[500, 500, -20]",
+        "tolerated" => "3",
+        "inlier_probability" => "0.95",
         "at_s" => "5",
         _ => "...",
     };

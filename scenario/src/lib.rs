@@ -100,6 +100,7 @@
 //! | `outliers.window` | | 10 | of so many pings in a row |
 //! | `outliers.tolerated` | | needed | at most so many are wrong |
 //! | `outliers.margin` | | none | assume the fewest that leave something, and so many more |
+//! | `outliers.inlier_probability` | | none | how likely a ping is right: the summary then says what the assumption is worth |
 //! | `estimator.gate_sigma` | | 3 | `"ekf"`: an innovation of more standard deviations is rejected; `false` to believe everything |
 //! | `estimator.fusion` | | `"independent"` | `"ekf"`: what others believe is `"independent"`, or taken in by `"covariance-intersection"` |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
@@ -148,6 +149,7 @@
 //! | `points_m` | m | | one place for each AUV, instead |
 //! | `place` | | | `"on-circle"`: spread evenly on the controller's circle, instead |
 //! | `box_width_m` | m | 10 | width of the prior box, or `[least, greatest]` |
+//! | `known` | | `true` | `false`: it is told no box, and may be anywhere in the area |
 //! | `heading_rad` | rad | drawn | heading; on a circle, along it |
 //! | `speed_m_s` | m/s | the controller's | speed through the water |
 //! | **`controller`** `"hold"` | | | stays where the run begins |
@@ -166,6 +168,10 @@
 //! | `margin_m` | m | 5 | added to the separation distance |
 //! | `forget_s` | s | 5 | a neighbour not heard for so long is forgotten, in local time |
 //! | `trusts` | | all | names of the groups heeded in cohesion and alignment |
+//! | **`[[fault]]`** | | | what goes wrong beyond all that is stated, counted apart: |
+//! | `kind` | | needed | `"kidnap"`: a body is carried elsewhere at once |
+//! | `auv`, `at_s` | s | needed | whose, and when |
+//! | `to_m` | m | needed | where it is left, inside the area |
 //! | **`[sabotage]`** | | | a test of the checker: |
 //! | `shifted_truth` | s | | `{ auv = 0, at_s = 5 }` moves that AUV's truth by a metre at that time |
 
@@ -176,6 +182,7 @@ mod document;
 mod environment;
 mod estimating;
 mod examples;
+mod fault;
 mod group;
 mod library;
 mod medium_access;

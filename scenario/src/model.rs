@@ -34,6 +34,8 @@ pub struct Scenario {
     pub groups: Vec<Group>,
     /// A truth shifted without telling the body: a test of the checker.
     pub sabotage: Option<WaterSabotage>,
+    /// What goes wrong beyond all that is stated, in the order of the file.
+    pub faults: Vec<Fault>,
 }
 
 /// How errors are drawn.
@@ -488,6 +490,8 @@ pub struct Start {
     pub place: Place,
     /// Least and greatest width of the prior box in metres; each AUV's is drawn in between.
     pub box_width_m: [f64; 2],
+    /// Whether it is told a box at all; if not, it may be anywhere in the area.
+    pub known: bool,
     /// Heading in rad; drawn when `None`.
     pub heading_rad: Option<f64>,
     /// Speed through the water in m/s.
@@ -536,7 +540,7 @@ pub struct TubeSettings {
 }
 
 /// How many pings may be wrong: at most `tolerated` of any `window` in a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Outliers {
     /// m, in pings heard.
     pub window: u16,
@@ -544,6 +548,8 @@ pub struct Outliers {
     pub tolerated: u16,
     /// Assume the fewest that leave something (GOMNE) and this margin r more, but never more than q; `None` to assume q.
     pub margin: Option<u16>,
+    /// How likely a ping is right, as far as anyone can say: what the assumption is worth, told in the summary.
+    pub inlier_probability: Option<f64>,
 }
 
 /// What an estimator does when nothing is left of its set.
@@ -651,6 +657,21 @@ pub enum WaterSabotage {
         auv: u32,
         /// True time in nanoseconds.
         at_ns: i64,
+    },
+}
+
+/// Something that goes wrong beyond all that is stated, declared so that it can be counted apart.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fault {
+    /// The body is carried elsewhere at once; its velocity stays, and what was on its way to its modem is not heard.
+    Kidnap {
+        /// Which AUV.
+        auv: u32,
+        /// True time in nanoseconds; it happens at the next knot.
+        at_ns: i64,
+        /// Where it is left, in metres.
+        to_m: Vec3,
     },
 }
 

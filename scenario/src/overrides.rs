@@ -1,6 +1,6 @@
 //! What the command line changes in a scenario.
 
-use crate::model::{MediumAccess, Noise, Place, Scenario, WaterSabotage};
+use crate::model::{Fault, MediumAccess, Noise, Place, Scenario, WaterSabotage};
 use crate::time::{NotWhole, ms_text, ns_of_decimal};
 use crate::{AUVS_MAX, window_limit_ns};
 
@@ -55,8 +55,8 @@ pub enum OverrideError {
         /// Points it has.
         points: usize,
     },
-    /// The AUV whose truth is shifted would be gone.
-    #[error("--auvs {auvs}: the scenario shifts the truth of AUV {auv}, counted from 0; ask for {} or more", .auv + 1)]
+    /// The AUV whose truth is shifted, or that is kidnapped, would be gone.
+    #[error("--auvs {auvs}: the scenario has something in store for AUV {auv}, counted from 0; ask for {} or more", .auv + 1)]
     SabotagedAuvGone {
         /// AUVs asked for.
         auvs: u32,
@@ -123,7 +123,16 @@ fn duration_ns(scenario: &Scenario, value: f64) -> Result<i64, OverrideError> {
             "the scenario shifts a truth at {} s, so the run must last longer",
             at_ns as f64 / 1e9
         )),
-        _ => Ok(ns),
+        _ => {
+            match scenario.faults.iter().map(|Fault::Kidnap { at_ns, .. }| *at_ns).find(|at_ns| *at_ns >= ns)
+            {
+                Some(at_ns) => refuse(format!(
+                    "the scenario has a fault at {} s, so the run must last longer",
+                    at_ns as f64 / 1e9
+                )),
+                None => Ok(ns),
+            }
+        }
     }
 }
 
@@ -158,9 +167,9 @@ fn rescale(scenario: &mut Scenario, auvs: u32) -> Result<(), OverrideError> {
     if (auvs as usize) < groups {
         return Err(OverrideError::FewerAuvsThanGroups { auvs, groups, scenario: scenario.name.clone() });
     }
-    if let Some(WaterSabotage::ShiftedTruth { auv, .. }) = scenario.sabotage
-        && auv >= auvs
-    {
+    let sabotaged = scenario.sabotage.map(|WaterSabotage::ShiftedTruth { auv, .. }| auv);
+    let kidnapped = scenario.faults.iter().map(|Fault::Kidnap { auv, .. }| *auv);
+    if let Some(auv) = sabotaged.into_iter().chain(kidnapped).find(|auv| *auv >= auvs) {
         return Err(OverrideError::SabotagedAuvGone { auvs, auv });
     }
     let auvs_before = scenario.auv_count();

@@ -45,6 +45,15 @@ fn read(
         }
         Some(value) => table.number_in("box_width_m", value, Rule::NotNegative).map(|width| [width; 2]),
     };
+    let known = table.boolean("known", true);
+    if known == Some(false) && table.has("box_width_m") {
+        table.refuse(
+            "box_width_m",
+            "an AUV that does not know where it begins is told no box but the area",
+            "has no effect",
+            "remove `box_width_m`, or write `known = true`",
+        );
+    }
     let heading_rad = match table.get("heading_rad") {
         None => Some(None),
         Some(value) => table.number_in("heading_rad", value, Rule::Finite).map(Some),
@@ -73,7 +82,13 @@ fn read(
     } else {
         speed
     };
-    Some(Start { place: place?, box_width_m: box_width_m?, heading_rad: heading_rad?, speed_m_s: speed? })
+    Some(Start {
+        place: place?,
+        box_width_m: box_width_m?,
+        known: known?,
+        heading_rad: heading_rad?,
+        speed_m_s: speed?,
+    })
 }
 
 fn place(

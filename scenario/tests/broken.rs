@@ -48,6 +48,8 @@ broken! {
     too_many: "too-many",
     unknown_names: "unknown-names",
     not_nanoseconds: "not-nanoseconds",
+    fault_impossible: "fault-impossible",
+    start_unknown: "start-unknown",
     sabotage_outside: "sabotage-outside",
     one_bracket: "one-bracket",
     two_places: "two-places",

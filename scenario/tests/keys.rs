@@ -19,10 +19,16 @@ zz = 0
 [sabotage]
 shifted_truth = { auv = 0, at_s = 0, zz = 0 }
 zz = 0
+[[fault]]
+kind = "kidnap"
+auv = 0
+at_s = 0
+to_m = [1, 1, -1]
+zz = 0
 [[group]]
 name = "hold"
 count = 1
-estimator = { name = "tube", zz = 0 }
+estimator = { name = "tube", outliers = { tolerated = 1, zz = 0 }, zz = 0 }
 controller = { name = "hold", zz = 0 }
 zz = 0
 [group.sensors]
@@ -90,7 +96,7 @@ modem = "micromodem-psk"
 
 #[test]
 fn every_key_is_documented() {
-    every_unknown_key_lists_documented_ones(UNKNOWN_EVERYWHERE, 19);
+    every_unknown_key_lists_documented_ones(UNKNOWN_EVERYWHERE, 21);
     every_unknown_key_lists_documented_ones(UNKNOWN_IN_THE_SEA, 7);
     every_unknown_key_lists_documented_ones(UNKNOWN_IN_OTHER_FORMS, 2);
 }

@@ -11,6 +11,7 @@ use crate::controller::{self, Belief, Controller};
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::modem::Modem;
 use crate::sabotage;
+use crate::set_observer::SetObserver;
 use crate::state::State;
 use crate::tube_estimator::TubeEstimator;
 
@@ -28,6 +29,9 @@ impl Auv {
     pub fn new(born: &Born) -> Self {
         let believed = sabotage::believed(born);
         let estimator = match born.orders.estimator {
+            EstimatorOrders::Tube(settings) if SetObserver::is_asked_for(born, &settings) => {
+                Box::new(SetObserver::new(&believed, &settings)) as Box<dyn Estimator>
+            }
             EstimatorOrders::Tube(_) | EstimatorOrders::Ekf(_) | EstimatorOrders::DeadReckoning => {
                 Box::new(TubeEstimator::new(&believed))
             }
@@ -44,7 +48,7 @@ impl Auv {
     }
 
     fn belief(&self, estimate: &Estimate, now: &Prediction) -> Belief {
-        let state = &estimate.state;
+        let state = self.estimator.likeliest().unwrap_or(estimate.state);
         Belief {
             time_s: now.time_s.mid(),
             position_m: state.position_m.mid(),

@@ -13,6 +13,11 @@ pub trait Estimator {
 
     /// The state at `at`, which is not before the last tick, as far as the bounds of motion tell.
     fn predict(&self, at: LocalTime) -> Prediction;
+
+    /// The part of the state that it bets on, for steering: never what it encloses. None when that is all of it.
+    fn likeliest(&self) -> Option<State> {
+        None
+    }
 }
 
 /// What is known at a tick.

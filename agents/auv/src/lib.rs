@@ -19,6 +19,9 @@
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
 //! | `rings.rs` | pings as rings around the present position |
+//! | `set_observer.rs` | the robust set observer: some of what is heard may be wrong, or the start unknown |
+//! | `relaxed.rs` | the last pings, of which some may be wrong |
+//! | `hypotheses.rs` | the possible states, in several parts if need be |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -27,6 +30,7 @@ pub mod controller;
 pub mod current;
 pub mod estimator;
 mod history;
+pub mod hypotheses;
 pub mod medium_access;
 pub mod modem;
 pub mod motion;
@@ -34,8 +38,10 @@ pub mod neighbours;
 #[cfg(test)]
 mod newborn;
 pub mod odometry;
+pub mod relaxed;
 pub mod rings;
 mod sabotage;
+pub mod set_observer;
 pub mod state;
 pub mod travel;
 pub mod tube_estimator;

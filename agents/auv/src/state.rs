@@ -43,6 +43,21 @@ pub struct Sound {
 pub struct Contradiction(pub Culprit);
 
 impl State {
+    /// No state at all.
+    pub const EMPTY: Self = Self { offset_s: Interval::EMPTY, position_m: IntervalBox::EMPTY };
+
+    /// As a box of (clock offset, x, y, z).
+    pub fn as_box(&self) -> IntervalBox<4> {
+        let [x, y, z] = self.position_m.sides();
+        IntervalBox::from([self.offset_s, x, y, z])
+    }
+
+    /// The state of a box of (clock offset, x, y, z).
+    pub fn of_box(of: &IntervalBox<4>) -> Self {
+        let [offset_s, x, y, z] = of.sides();
+        Self { offset_s, position_m: IntervalBox::from([x, y, z]) }
+    }
+
     /// The state after `moved`.
     pub fn moved(&self, moved: &Moved) -> Self {
         Self {
@@ -58,6 +73,11 @@ impl State {
                 .intersection(after.offset_s - moved.offset_within_s),
             position_m: (self.position_m + moved.within_m).intersection(&(after.position_m - moved.within_m)),
         }
+    }
+
+    /// All states during `moved`, which ended in this one.
+    pub fn backwards(&self, moved: &Moved) -> Self {
+        Self { offset_s: self.offset_s - moved.offset_within_s, position_m: self.position_m - moved.within_m }
     }
 
     /// The smallest state that holds both.

@@ -47,7 +47,7 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
     let first_fix = birth + group.sensors.gnss.as_ref().map_or(0, |gnss| within(gnss.period_ns));
 
     let (position_m, attitude) = placed(group, index, &mut start);
-    let prior_position_m = prior_box(group, &position_m, &mut start);
+    let prior_position_m = prior_box(scenario, group, &position_m, &mut start);
     let body = Body::new(
         &group.kind,
         water.current.clone(),
@@ -134,8 +134,11 @@ fn spread_rad(group: &Group, index: u32) -> f64 {
     2.0 * std::f64::consts::PI * f64::from(index) / f64::from(group.count)
 }
 
-/// A box of drawn width that holds the true position anywhere inside it.
-fn prior_box(group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
+/// A box of drawn width that holds the true position anywhere inside it; the area for an AUV that is told none.
+fn prior_box(scenario: &Scenario, group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
+    if !group.start.known {
+        return scenario.environment.area_m.map(|[least, greatest]| Bounds::new(least, greatest));
+    }
     let [narrowest, widest] = group.start.box_width_m;
     let width_m = draws.between(narrowest, widest);
     std::array::from_fn(|axis| {

@@ -124,6 +124,10 @@ pub struct Body {
     /// What is remembered, the last one reaching beyond what is integrated so far.
     segments: VecDeque<Segment>,
     shift: Option<SimTime>,
+    /// When it will be carried elsewhere, and where to in metres, in order of time.
+    leaps: VecDeque<(SimTime, Vec3)>,
+    /// When it was carried elsewhere last, and how far in metres.
+    leapt: Option<(SimTime, f64)>,
 }
 
 impl Body {
@@ -148,6 +152,8 @@ impl Body {
             setpoints: VecDeque::new(),
             segments: VecDeque::new(),
             shift: None,
+            leaps: VecDeque::new(),
+            leapt: None,
         };
         body.begin(SimTime::ZERO, position_m, attitude, attitude.velocity_m_s());
         body
@@ -171,6 +177,17 @@ impl Body {
         self.shift = Some(at);
     }
 
+    /// Carries the body to `to_m` at the first knot from `at` on, its velocity unchanged: a kidnapping.
+    pub fn kidnap(&mut self, at: SimTime, to_m: Vec3) {
+        let place = self.leaps.partition_point(|&(earlier, _)| earlier <= at);
+        self.leaps.insert(place, (at, to_m));
+    }
+
+    /// How far it was carried by kidnappers after `since`, in metres, as far as it is integrated; only the last time counts.
+    pub fn leapt_since(&self, since: SimTime) -> f64 {
+        self.leapt.filter(|&(at, _)| at >= since).map_or(0.0, |(_, leap_m)| leap_m)
+    }
+
     /// Takes a desired velocity through the water that takes effect at `at`, which lies in no window already integrated.
     pub fn steer(&mut self, at: SimTime, velocity_m_s: Vec3) {
         let place = self.setpoints.partition_point(|&(earlier, _)| earlier <= at);
@@ -192,6 +209,11 @@ impl Body {
             if self.shift.is_some_and(|at| at <= last.end) {
                 self.shift = None;
                 position_m.x += 1.0;
+            }
+            while let Some(&(_, to_m)) = self.leaps.front().filter(|(at, _)| *at <= last.end) {
+                self.leaps.pop_front();
+                self.leapt = Some((last.end, (to_m - position_m).norm()));
+                position_m = to_m;
             }
             let (planned_end, attitude, velocity_m_s) = last.planned;
             if last.end == planned_end {

@@ -11,7 +11,7 @@ use shoal_bus::ping::{Frame, Ping};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
-use shoal_scenario::model::{Scenario, WaterSabotage};
+use shoal_scenario::model::{Fault, Scenario, WaterSabotage};
 use thiserror::Error;
 
 use crate::acoustics::profile::ProfileError;
@@ -23,7 +23,7 @@ use crate::flock::Flock;
 use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
-use crate::tally::Tally;
+use crate::tally::{Excuse, Tally};
 use crate::vehicle::{Planned, Vehicle};
 use crate::water::Water;
 
@@ -106,6 +106,11 @@ impl Channel {
             && let Some(vehicle) = vehicles.get_mut(auv as usize)
         {
             vehicle.body.shift_truth(SimTime::from_ns(at_ns));
+        }
+        for &Fault::Kidnap { auv, at_ns, to_m } in &scenario.faults {
+            if let Some(vehicle) = vehicles.get_mut(auv as usize) {
+                vehicle.kidnap(SimTime::from_ns(at_ns), to_m.into());
+            }
         }
         Ok(Self {
             scenario: scenario.clone(),
@@ -241,12 +246,14 @@ impl Channel {
         self.places_m.clear();
         self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(start)));
         self.grid.sort(&self.places_m, self.medium.farthest_m());
+        let leapt_m = self.vehicles.iter().map(|vehicle| vehicle.body.leapt_since(start)).fold(0.0, f64::max);
         for (at, from, planned) in leaving {
-            self.emit_one(at, from, planned);
+            self.emit_one(at, from, planned, leapt_m);
         }
     }
 
-    fn emit_one(&mut self, at: SimTime, from: AuvId, planned: Planned) {
+    /// One ping that leaves; kidnappers carried nobody farther than `leapt_m` since `now`.
+    fn emit_one(&mut self, at: SimTime, from: AuvId, planned: Planned, leapt_m: f64) {
         let group = self.vehicles[from.0 as usize].born.group;
         let packet_ns = self.medium.packet_ns(group, planned.frame.bytes().len() as u16);
         if let Some(reason) = self.held_back(at, from, &planned) {
@@ -260,7 +267,7 @@ impl Channel {
         emitter.emitted += 1;
         emitter.emits_until = at + packet_ns;
         let pose = emitter.body.at(at);
-        let exposed = emitter.is_exposed_at(at);
+        let excuse = excuse(emitter, at, planned.booked);
         let (violation, box_width_m) =
             check_ping(from, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
         let wavefront = Arc::new(Wavefront {
@@ -275,7 +282,7 @@ impl Channel {
             range_m: emitter.born.modem.range_m,
             is_false: violation.is_some(),
         });
-        let moved_m = self.fastest_m_s * ((at - self.now) as f64 * 1e-9) + 1e-6;
+        let moved_m = self.fastest_m_s * ((at - self.now) as f64 * 1e-9) + 1e-6 + leapt_m;
         let beyond_range = self.medium.emit(&wavefront, &mut self.vehicles, &self.grid, moved_m);
         let fate = Fate::Emitted {
             position_m: pose.position_m.into(),
@@ -285,7 +292,7 @@ impl Channel {
             packet_s: packet_ns as f64 * 1e-9,
         };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
-        self.tally.check(from, at, violation, exposed);
+        self.tally.check(from, at, violation, excuse);
     }
 
     /// Why a modem does not emit what is booked for now, if it does not.
@@ -314,6 +321,9 @@ impl Channel {
             match fate {
                 Fate::Heard { range_m, .. } if !receiver.alive => {
                     fate = Fate::lost(Some(to), LossReason::Dead, range_m);
+                }
+                Fate::Heard { range_m, .. } if receiver.was_kidnapped_between(wavefront.emitted, at) => {
+                    fate = Fate::lost(Some(to), LossReason::Asleep, range_m);
                 }
                 Fate::Heard { outlier, .. } => {
                     if outlier || wavefront.is_false {
@@ -389,11 +399,14 @@ impl Channel {
             .position(&report.slice.position_m, &tick.between_position_m)
             .time(&report.slice.clock_offset_s, between_offset_s)
             .violation();
-        let exposed = vehicle.is_exposed_at(tick.at);
-        self.tally.check(auv, tick.at, at_tick, exposed);
-        self.tally.check(auv, tick.at, between_ticks, exposed);
+        let excuse = excuse(vehicle, tick.at, tick.at);
+        self.tally.check(auv, tick.at, at_tick, excuse);
+        self.tally.check(auv, tick.at, between_ticks, excuse);
         if report.emptied.is_some() {
-            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), exposed);
+            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), excuse);
+            if let Some(after_ns) = vehicle.notices(tick.at) {
+                self.tally.noticed(after_ns);
+            }
         }
         self.tally.reported(auv, box_width(&report.position_m), report.clock_offset_s.width());
         for (index, ping) in acted.pings.iter().enumerate() {
@@ -403,7 +416,7 @@ impl Channel {
                 let fate = Fate::lost(None, LossReason::Late, 0.0);
                 self.tally.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
             } else {
-                vehicle.plan(ping.clone());
+                vehicle.plan(ping.clone(), tick.at);
             }
         }
         self.tally.happened(tick.at, auv, What::Acted(acted));
@@ -417,6 +430,14 @@ impl Channel {
         vehicle.end(self.now);
         self.tally.lost(self.now, loss.auv, &vehicle.born.name, &loss.reason);
     }
+}
+
+/// Why no promise covers what an AUV states at `at` by what it knew at its tick at `known`, if none does.
+fn excuse(vehicle: &Vehicle, at: SimTime, known: SimTime) -> Option<Excuse> {
+    if vehicle.is_kidnapped_at(at, known) {
+        return Some(Excuse::Kidnapped);
+    }
+    vehicle.is_exposed_at(at).then_some(Excuse::Misled)
 }
 
 /// Checks a payload at its emission; also gives the width of its position box in metres.

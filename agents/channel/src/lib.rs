@@ -18,6 +18,7 @@
 //! | `sensors.rs` | measurements inside stated bounds |
 //! | `sound.rs` | wavefronts and arrivals |
 //! | `reception.rs` | which packets a modem decodes |
+//! | `assumption.rs` | what assuming few outliers is worth |
 //! | `check.rs` | enclosures against the truth |
 //! | `grid.rs` | who is near |
 //! | `ideal.rs` | sound as a sphere with a sharp edge |
@@ -30,6 +31,7 @@
 //! | `tally.rs` | what it all amounts to |
 
 pub mod acoustics;
+mod assumption;
 pub mod birth;
 pub mod body;
 pub mod budget;

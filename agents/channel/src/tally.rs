@@ -5,11 +5,14 @@ use std::collections::BTreeSet;
 use shoal_bus::chronicle::{Entry, Violation, What};
 use shoal_bus::message::AuvId;
 use shoal_bus::summary::{
-    Agents, Containment, Flock, LostAgent, Misled, Pings, SUMMARY_FORMAT, Summary, ViolationLine, Widths,
+    Agents, Containment, Flock, Kidnapped, LostAgent, Misled, Pings, SUMMARY_FORMAT, Summary, ViolationLine,
+    Widths,
 };
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::Scenario;
+
+use crate::assumption::assumptions;
 
 /// So many violations are told one by one in a summary.
 const VIOLATIONS_TOLD: usize = 10;
@@ -21,12 +24,37 @@ pub struct Tally {
     wakes: u64,
     checks: u64,
     violations: u64,
-    misled: BTreeSet<AuvId>,
-    misled_violations: u64,
+    misled: Apart,
+    kidnapped: Apart,
+    noticed_after_ns: Vec<i64>,
+    heard: Vec<u64>,
     first_violations: Vec<(SimTime, AuvId, Violation)>,
     widths: Vec<Option<ReportWidths>>,
     pings: Pings,
     lost: Vec<LostAgent>,
+}
+
+/// Why a violation is counted apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excuse {
+    /// The AUV has heard something false.
+    Misled,
+    /// The AUV was carried elsewhere and has not noticed yet.
+    Kidnapped,
+}
+
+/// Violations that are counted apart.
+#[derive(Default)]
+struct Apart {
+    auvs: BTreeSet<AuvId>,
+    violations: u64,
+}
+
+impl Apart {
+    fn add(&mut self, auv: AuvId) {
+        self.auvs.insert(auv);
+        self.violations += 1;
+    }
 }
 
 /// First and last widths that an AUV reported.
@@ -44,8 +72,10 @@ impl Tally {
             wakes: 0,
             checks: 0,
             violations: 0,
-            misled: BTreeSet::new(),
-            misled_violations: 0,
+            misled: Apart::default(),
+            kidnapped: Apart::default(),
+            noticed_after_ns: Vec::new(),
+            heard: vec![0; auvs],
             first_violations: Vec::new(),
             widths: vec![None; auvs],
             pings: Pings::default(),
@@ -68,6 +98,7 @@ impl Tally {
             }
             Fate::Heard { outlier, .. } => {
                 self.pings.heard += 1;
+                self.heard[auv.0 as usize] += 1;
                 self.pings.outliers += u64::from(outlier);
             }
             Fate::Lost { to: None, reason: LossReason::HalfDuplex, .. } => self.pings.lost.unsent += 1,
@@ -90,20 +121,25 @@ impl Tally {
         self.happened(traffic.at, auv, What::Traffic(traffic));
     }
 
-    /// An enclosure was checked; a violation by an AUV that is exposed to something false is counted apart.
-    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>, exposed: bool) {
+    /// An enclosure was checked; a violation with an excuse is counted apart.
+    pub fn check(&mut self, auv: AuvId, at: SimTime, violation: Option<Violation>, excuse: Option<Excuse>) {
         self.checks += 1;
         let Some(violation) = violation else { return };
-        if exposed {
-            self.misled_violations += 1;
-            self.misled.insert(auv);
-            return;
+        match excuse {
+            Some(Excuse::Misled) => return self.misled.add(auv),
+            Some(Excuse::Kidnapped) => return self.kidnapped.add(auv),
+            None => {}
         }
         self.violations += 1;
         self.first_violations.push((at, auv, violation));
         self.first_violations.sort_by_key(|&(at, auv, _)| (at, auv));
         self.first_violations.truncate(VIOLATIONS_TOLD);
         self.happened(at, auv, What::Violation(violation));
+    }
+
+    /// A kidnapped AUV noticed it, so many nanoseconds later.
+    pub fn noticed(&mut self, after_ns: i64) {
+        self.noticed_after_ns.push(after_ns);
     }
 
     /// An AUV reported enclosures of these widths, in metres and seconds.
@@ -174,8 +210,17 @@ impl Tally {
             unit: violation.coordinate.unit().to_owned(),
         };
         let first = self.first_violations.iter().map(line).collect();
-        let misled = Misled { auvs: self.misled.len() as u32, violations: self.misled_violations };
-        Containment { checks: self.checks, violations: self.violations, first, misled }
+        let Apart { auvs, violations } = &self.misled;
+        let misled = Misled { auvs: auvs.len() as u32, violations: *violations };
+        let kidnapped = (!scenario.faults.is_empty()).then(|| Kidnapped {
+            kidnappings: scenario.faults.len() as u32,
+            noticed: self.noticed_after_ns.len() as u32,
+            noticed_after_s: self.noticed_after_ns.iter().max().map(|&after_ns| after_ns as f64 * 1e-9),
+            violations: self.kidnapped.violations,
+        });
+        let (checks, violations) = (self.checks, self.violations);
+        let assumptions = assumptions(scenario, &self.heard);
+        Containment { checks, violations, first, misled, kidnapped, assumptions }
     }
 }
 

@@ -38,6 +38,7 @@ pub struct Vehicle {
     /// End of its last packet, at the emitter.
     pub emits_until: SimTime,
     exposed_since: Option<SimTime>,
+    kidnappings: Vec<Kidnapping>,
     sensors: Sensors,
     timestamps: Draws,
     timestamp_error_s: f64,
@@ -61,6 +62,15 @@ pub struct Planned {
     pub listen_ns: i64,
     /// What it says.
     pub frame: Frame,
+    /// True time of the tick that booked it.
+    pub booked: SimTime,
+}
+
+/// A body carried elsewhere, with or without its mind's notice.
+#[derive(Clone, Copy, Debug)]
+struct Kidnapping {
+    at: SimTime,
+    noticed: Option<SimTime>,
 }
 
 /// A ping that was decoded but not yet handed over.
@@ -103,6 +113,7 @@ impl Vehicle {
             emitted: 0,
             emits_until: SimTime::ZERO,
             exposed_since: None,
+            kidnappings: Vec::new(),
             sensors,
             timestamps: arrivals,
             timestamp_error_s,
@@ -135,6 +146,34 @@ impl Vehicle {
     /// Whether what it states at `at` may rest on something false that it heard.
     pub fn is_exposed_at(&self, at: SimTime) -> bool {
         self.exposed_since.is_some_and(|since| since <= at)
+    }
+
+    /// Carries its body to `to_m` at `at`; its mind is not told.
+    pub fn kidnap(&mut self, at: SimTime, to_m: Vec3) {
+        self.body.kidnap(at, to_m);
+        self.kidnappings.push(Kidnapping { at, noticed: None });
+    }
+
+    /// Whether what it states at `at`, by what it knew at its tick at `known`, may rest on where it was before a kidnapping: it has
+    /// not said since that nothing was left of its set.
+    pub fn is_kidnapped_at(&self, at: SimTime, known: SimTime) -> bool {
+        self.kidnappings.iter().any(|of| of.at <= at && of.noticed.is_none_or(|noticed| known < noticed))
+    }
+
+    /// Whether kidnappers had its modem out of the water between `since` and `at`.
+    pub fn was_kidnapped_between(&self, since: SimTime, at: SimTime) -> bool {
+        self.kidnappings.iter().any(|of| since <= of.at && of.at <= at)
+    }
+
+    /// It said at its tick at `at` that nothing was left of its set; the answer is the nanoseconds since the kidnapping that it
+    /// has noticed by that, if it is one.
+    pub fn notices(&mut self, at: SimTime) -> Option<i64> {
+        let unnoticed = self.kidnappings.iter_mut().filter(|of| of.at <= at && of.noticed.is_none());
+        let since = unnoticed.map(|of| {
+            of.noticed = Some(at);
+            at - of.at
+        });
+        since.max()
     }
 
     /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.
@@ -183,12 +222,12 @@ impl Vehicle {
         Ok(())
     }
 
-    /// Books a ping; `at` lies in no window already advanced.
-    pub fn plan(&mut self, ping: PlannedPing) {
+    /// Books a ping at its tick at `booked`; `at` lies in no window already advanced.
+    pub fn plan(&mut self, ping: PlannedPing, booked: SimTime) {
         let at = self.clock.reaches(ping.at);
         let place = self.planned.partition_point(|earlier| earlier.at <= at);
         let PlannedPing { at: stamp, listen_ns, frame } = ping;
-        self.planned.insert(place, Planned { at, stamp, listen_ns, frame });
+        self.planned.insert(place, Planned { at, stamp, listen_ns, frame, booked });
     }
 
     /// The next booked ping that leaves before `horizon`.
