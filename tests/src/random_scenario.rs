@@ -122,7 +122,15 @@ fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, mo
     writeln!(text, "\n[[group]]\nname = \"g{index}\"\ncount = {count}")?;
     let control_period_s = dice.seconds(0.02, 0.5);
     writeln!(text, "control_period_s = {control_period_s}\nreaction_s = {}", dice.seconds(0.012, 0.5))?;
-    writeln!(text, "estimator = {{ name = \"tube\", horizon_s = {} }}", dice.seconds(0.05, 10.0))?;
+    write!(text, "estimator = {{ name = \"tube\", horizon_s = {}", dice.seconds(0.05, 10.0))?;
+    if dice.chance(0.4) {
+        let window = dice.whole(1, 20);
+        let tolerated = dice.whole(0, (window - 1).min(4));
+        let margin = if dice.chance(0.3) { format!(", margin = {tolerated}") } else { String::new() };
+        write!(text, ", outliers = {{ window = {window}, tolerated = {tolerated}{margin} }}")?;
+    }
+    let on_empty = ["drop", "relax", "restart"][dice.whole(0, 2) as usize];
+    writeln!(text, ", on_empty = \"{on_empty}\" }}")?;
 
     let speed_m_s = dice.magnitude(0.4, water.fastest_m_s);
     let turn_rate_rad_s = dice.magnitude(0.05, 1.6);
@@ -173,7 +181,9 @@ fn write_controller(
     let Water { side_m, depth_m, current_m_s, .. } = *water;
     let cruise_m_s = speed_m_s * dice.between(0.1, 1.0);
     let box_width_m = if dice.chance(0.2) { 0.0 } else { dice.magnitude(0.01, 50.0) };
-    let mut start = format!("box_width_m = [0, {box_width_m}]");
+    let known = dice.chance(0.9);
+    let mut start =
+        if known { format!("box_width_m = [0, {box_width_m}]") } else { "known = false".to_owned() };
     match dice.whole(0, 3) {
         0 => writeln!(text, "[group.controller]\nname = \"hold\"")?,
         1 if speed_m_s > 2.0 * current_m_s => {
