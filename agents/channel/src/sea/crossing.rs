@@ -118,3 +118,6 @@ impl Crossing {
         doppler_factor(emitter_rate_m_s, receiver_rate_m_s, receiver_speed_m_s)
     }
 }
+
+#[cfg(test)]
+mod tests;
