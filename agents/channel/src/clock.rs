@@ -184,6 +184,6 @@ mod tests {
             assert!(fastest >= 0.5 * model.drift_bound, "{name} never drifts faster than {fastest}");
             names.push(name);
         }
-        assert_eq!(names, ["ideal", "quartz", "tcxo", "csac", "custom"]);
+        assert_eq!(names, ["ideal", "quartz", "tcxo", "ocxo", "csac", "custom"]);
     }
 }
