@@ -10,6 +10,9 @@ use crate::reader::Table;
 use crate::sensing::PERIOD_MIN_NS;
 use crate::sound_speed::slowest_m_s;
 
+/// A modem listens at most so long before it emits, in local nanoseconds: it remembers no more of what it heard.
+pub const LISTEN_MAX_NS: i64 = 10_000_000_000;
+
 const NAMES: [&str; 4] = ["periodic", "aloha", "slotted", "csma"];
 
 /// `packet` is the physical layer where packets take time.
@@ -64,7 +67,7 @@ pub(crate) fn medium_access(
         has_no_phase(modem, name);
     }
     let waits = match (name, &table) {
-        ("csma", Some(table)) => (table.time_ns("listen_s", None, 1), table.time_ns("backoff_s", None, 1)),
+        ("csma", Some(table)) => (listen(table), table.time_ns("backoff_s", None, 1)),
         _ => (None, None),
     };
     if let Some(table) = table {
@@ -102,6 +105,21 @@ fn outlasts_a_packet(modem: &Table<'_>, period_ns: i64, packet: Option<&Physical
             ),
         );
     }
+}
+
+fn listen(table: &Table<'_>) -> Option<i64> {
+    let listen_ns = table.time_ns("listen_s", None, 1)?;
+    if listen_ns > LISTEN_MAX_NS {
+        let most_s = in_seconds(LISTEN_MAX_NS);
+        table.refuse(
+            "listen_s",
+            format!("a modem remembers what it heard for {most_s} s, not for {} s", in_seconds(listen_ns)),
+            format!("longer than {most_s} s"),
+            format!("write `listen_s = {most_s}` or less; a busy band is better shared by `backoff_s`"),
+        );
+        return None;
+    }
+    Some(listen_ns)
 }
 
 fn has_no_phase(modem: &Table<'_>, name: &str) {
