@@ -174,11 +174,77 @@ pub struct Orders {
 /// How an AUV encloses its position and clock.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Estimator {
-    /// The state tube: guaranteed, contracted by every measurement, `horizon_ns` of it remembered.
-    Tube {
-        /// Local nanoseconds of the past that are kept. What is told later than that is ignored, so no packet may take longer.
-        horizon_ns: i64,
-    },
+    /// The state tube: guaranteed, contracted by every measurement.
+    Tube(TubeSettings),
+    /// An extended Kalman filter: a Gaussian, without guarantee.
+    Ekf(EkfSettings),
+    /// Log, attitude and clock alone, from the prior on.
+    DeadReckoning,
+}
+
+/// How a tube estimator works.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TubeSettings {
+    /// Local nanoseconds of the past that are kept. What is told later than that is ignored, so no packet may take longer.
+    pub horizon_ns: i64,
+    /// So many of the last pings are kept as rings around the present position, carried along by odometry; 0 for none.
+    pub rings: u16,
+    /// So often, at most, a tick's news are propagated backward and forward through the horizon; 0 for forward only.
+    pub passes: u8,
+    /// No further pass when the last one made nothing smaller by this part of its width.
+    pub stopping_ratio: f64,
+    /// What may be wrong of what is heard; nothing when `None`.
+    pub outliers: Option<Outliers>,
+    /// What to do when nothing is left.
+    pub on_empty: Recovery,
+}
+
+impl TubeSettings {
+    /// The plainest tube: forward only, box by box, and all that is heard is believed.
+    pub const fn forward(horizon_ns: i64) -> Self {
+        let on_empty = Recovery::Drop;
+        Self { horizon_ns, rings: 0, passes: 0, stopping_ratio: 0.05, outliers: None, on_empty }
+    }
+}
+
+/// How many pings may be wrong: at most `tolerated` of any `window` in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Outliers {
+    /// m, in pings heard.
+    pub window: u16,
+    /// q, the most that is ever assumed.
+    pub tolerated: u16,
+    /// Assume the fewest that leave something (GOMNE) and this margin r more, but never more than q; `None` to assume q.
+    pub margin: Option<u16>,
+}
+
+/// What an estimator does when nothing is left of its set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Recovery {
+    /// Ignores the measurement that left nothing.
+    Drop,
+    /// Ignores as few of the remembered pings as leave something.
+    Relax,
+    /// Begins again, from the whole area.
+    Restart,
+}
+
+/// How a Kalman filter works.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EkfSettings {
+    /// An innovation of more than so many standard deviations is rejected; infinite to believe everything.
+    pub gate_sigma: f64,
+    /// How what others believe is taken in.
+    pub fusion: Fusion,
+}
+
+/// How a Gaussian takes in what others believe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fusion {
+    /// As if it were independent of what the AUV believes itself.
+    Independent,
+    /// By covariance intersection, which holds whatever they have in common.
+    CovarianceIntersection,
 }
 
 /// When an AUV pings. Local times and local nanoseconds, unless said otherwise.
@@ -414,6 +480,21 @@ pub struct Report {
     pub neighbours: u16,
     /// Measurements that made the enclosure smaller since the last tick.
     pub contractions: u16,
+    /// Pings told at this tick that the estimator took for outliers, or dropped.
+    pub rejected: u16,
+    /// Separate parts of the set; one unless the AUV does not know which of several places it is at.
+    pub components: u16,
+    /// What a Kalman filter believes; its boxes reach three standard deviations to either side. Nobody promises anything then.
+    pub gaussian: Option<Gaussian>,
+}
+
+/// A Gaussian over position and clock: east, north, up in metres, and true minus local time in seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gaussian {
+    /// The mean.
+    pub mean: [f64; 4],
+    /// The upper triangle of the covariance, row by row.
+    pub covariance: [f64; 10],
 }
 
 /// An enclosure over the whole interval between two ticks.

@@ -18,7 +18,7 @@ def told(data):
         nonlocal place
         values = struct.unpack_from("<" + layout, data, place)
         place += struct.calcsize("<" + layout)
-        return values if len(values) > 1 else values[0]
+        return values[0] if len(values) == 1 else values
 
     assert take("H") == 1
     rows = []
@@ -27,10 +27,10 @@ def told(data):
         events = []
         for _ in range(count):
             stamp, kind = take("qI")
-            if kind == 3:
+            if kind == 4:
                 fields = bytes(take(f"{take('Q')}s"))
             else:
-                fields = take(("6d", "2d", "8d")[kind])
+                fields = take(("6d", "6d", "2d", "8d", "", "")[kind])
             events.append((stamp, kind, fields))
         rows.append((at, auv, tick, local, events))
     assert place == len(data)
@@ -45,7 +45,7 @@ def read(reader):
         if channel.message_encoding == "application/x-shoal-bincode":
             rows = told(message.data)
             found["told"] += len(rows)
-            found["heard_bytes"] += sum(len(fields) for row in rows for _, kind, fields in row[4] if kind == 3)
+            found["heard_bytes"] += sum(len(fields) for row in rows for _, kind, fields in row[4] if kind == 4)
             continue
         content = json.loads(message.data)
         described = json.loads(schema.data)

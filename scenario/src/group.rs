@@ -6,12 +6,13 @@ use toml::de::DeValue;
 
 use crate::body::Catalogues;
 use crate::environment::norm;
+use crate::estimating::estimator;
 use crate::model::{AuvSabotage, Environment, Group};
 use crate::modem::{Surroundings as ModemSurroundings, modem};
 use crate::reader::Table;
 use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS};
 use crate::start::start;
-use crate::steering::{Surroundings, controller, estimator};
+use crate::steering::{Surroundings, controller};
 use crate::{AUVS_MAX, window_limit_ns};
 
 const SABOTAGES: &[(&str, Option<AuvSabotage>)] = &[

@@ -90,8 +90,18 @@
 //! | `sensors` | | `"nominal"` | what it senses: one of [`presets::SENSORS`], of one's own, or a table |
 //! | `control_period_s` | s | 0.1 | between control ticks, in local time; 0.001 to 1000 |
 //! | `reaction_s` | s | 0.1 | from a tick to when its answer takes effect, in local time |
-//! | `estimator` | | `"tube"` | name, or table with `name` |
-//! | `estimator.horizon_s` | s | 10 | past that the tube keeps, in local time |
+//! | `estimator` | | `"tube"` | `"tube"`, `"ekf"`, `"dead-reckoning"`, or a table with that `name` |
+//! | `estimator.horizon_s` | s | 10 | `"tube"`: past that is kept, in local time |
+//! | `estimator.rings` | | 0 | `"tube"`: so many of the last pings are kept as rings around the present position |
+//! | `estimator.passes` | | 0 | `"tube"`: so often, at most, news are propagated backward and forward through the horizon |
+//! | `estimator.stopping_ratio` | | 0.05 | `"tube"`: no further pass when the last one gained less than this part of a width |
+//! | `estimator.on_empty` | | `"drop"` | `"tube"`: when nothing is left, `"drop"` the culprit, `"relax"` over all rings, or `"restart"` from the area |
+//! | `estimator.outliers` | | `false` | `"tube"`: a table for pings that may be wrong: |
+//! | `outliers.window` | | 10 | of so many pings in a row |
+//! | `outliers.tolerated` | | needed | at most so many are wrong |
+//! | `outliers.margin` | | none | assume the fewest that leave something, and so many more |
+//! | `estimator.gate_sigma` | | 3 | `"ekf"`: an innovation of more standard deviations is rejected; `false` to believe everything |
+//! | `estimator.fusion` | | `"independent"` | `"ekf"`: what others believe is `"independent"`, or taken in by `"covariance-intersection"` |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
 //! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
 //! | **`[sensors.NAME]`, `[group.sensors]`** | | | sensors of one's own |
@@ -115,12 +125,12 @@
 //! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
 //! | `frame_bytes` | | 64 | bytes that one ping may have: [`PING_BYTES`] to [`FRAME_BYTES_MAX`] |
 //! | `addresses` | | none | so many devices can be told apart: a run with more is warned of |
-//! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, or a table with the `name` `"slotted"` or `"csma"` |
-//! | `access.slot_s` | s | needed | `"slotted"`: length of a slot, in true time; holds a packet and its way to the guard range |
+//! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, `"slotted"`, `"csma"`, or a table with that `name` |
+//! | `access.slot_s` | s | `ping_period_s` / `slots` | `"slotted"`: length of a slot, in true time; holds a packet and its way to the guard range |
 //! | `access.slots` | | all AUVs | `"slotted"`: slots in a frame; AUV i has slot i modulo this |
 //! | `access.guard_range_m` | m | diagonal of the area | `"slotted"`: slots do not overlap for receivers up to this far away |
-//! | `access.listen_s` | s | needed | `"csma"`: the medium must have been quiet for so long, in local time; 10 s at most |
-//! | `access.backoff_s` | s | needed | `"csma"`: mean time until a ping that was held back is tried again, in local time |
+//! | `access.listen_s` | s | one packet | `"csma"`: the medium must have been quiet for so long, in local time; 10 s at most |
+//! | `access.backoff_s` | s | two packets | `"csma"`: mean time until a ping that was held back is tried again, in local time |
 //! | `duty_cycle` | | always awake | when it listens, as a table: |
 //! | `duty_cycle.period_s` | s | needed | it wakes so often, in local time |
 //! | `duty_cycle.awake_s` | s | needed | and listens for so long; a packet at least |
@@ -164,6 +174,7 @@ mod current;
 mod diagnostics;
 mod document;
 mod environment;
+mod estimating;
 mod examples;
 mod group;
 mod library;

@@ -1,5 +1,7 @@
 //! When a modem emits: `access`, `ping_period_s` and `ping_phase_s` of `[group.modem]`.
 
+use toml::de::DeTable;
+
 use crate::AUVS_MAX;
 use crate::environment::norm;
 use crate::model::{Environment, Level, MediumAccess, PhysicalLayer};
@@ -13,6 +15,8 @@ use crate::sound_speed::slowest_m_s;
 /// A modem listens at most so long before it emits, in local nanoseconds: it remembers no more of what it heard.
 pub const LISTEN_MAX_NS: i64 = 10_000_000_000;
 
+/// So long must the medium have been quiet where packets take no time.
+const QUIET_DEFAULT_NS: i64 = 100_000_000;
 const NAMES: [&str; 4] = ["periodic", "aloha", "slotted", "csma"];
 
 /// `packet` is the physical layer where packets take time.
@@ -44,43 +48,28 @@ pub(crate) fn medium_access(
         modem.unknown_name(span, "access", name, NAMES.into_iter());
         return None;
     }
-    let slotted_read = match (name, &table) {
-        ("slotted" | "csma", None) => {
-            modem.refuse(
-                "access",
-                format!("the access `{name}` needs more than its name"),
-                "needs a table",
-                match name {
-                    "csma" => "write `access = { name = \"csma\", listen_s = 0.5, backoff_s = 2 }`",
-                    _ => "write `access = { name = \"slotted\", slot_s = 5 }`",
-                },
-            );
-            return None;
-        }
-        ("slotted", Some(table)) => {
-            not_with_slots(modem, period_ns.flatten());
-            Some(slotted(table, packet, around))
-        }
-        _ => None,
-    };
-    if !matches!(name, "periodic" | "slotted") {
+    let empty = DeTable::new();
+    let table = table
+        .unwrap_or_else(|| Table::new(&empty, modem.span("access"), "[group.modem.access]", modem.findings));
+    if !matches!(name, "periodic") {
         has_no_phase(modem, name);
     }
-    let waits = match (name, &table) {
-        ("csma", Some(table)) => (listen(table), table.time_ns("backoff_s", None, 1)),
-        _ => (None, None),
-    };
-    if let Some(table) = table {
-        table.finish();
-    }
+    let written_ns = period_ns.flatten().filter(|_| modem.has("ping_period_s"));
+    let slotted = (name == "slotted").then(|| slotted(&table, written_ns, packet, around));
+    let packet_ns = packet.map_or(QUIET_DEFAULT_NS, packet_ns);
+    let waits_ns = (name == "csma").then(|| {
+        let listen_ns = listen(&table, packet_ns);
+        (listen_ns, table.time_ns("backoff_s", Some(2 * packet_ns), 1))
+    });
+    table.finish();
     let Some(period_ns) = period_ns? else { return Some(MediumAccess::Silent) };
-    if let Some(slotted) = slotted_read {
+    if let Some(slotted) = slotted {
         return slotted;
     }
     outlasts_a_packet(modem, period_ns, packet);
-    Some(match (name, waits) {
+    Some(match (name, waits_ns) {
         ("aloha", _) => MediumAccess::Aloha { mean_period_ns: period_ns },
-        ("csma", (listen_ns, backoff_ns)) => {
+        (_, Some((listen_ns, backoff_ns))) => {
             MediumAccess::Csma { period_ns, listen_ns: listen_ns?, backoff_ns: backoff_ns? }
         }
         _ => MediumAccess::Periodic { period_ns, phase_ns: phase_ns.flatten() },
@@ -107,8 +96,9 @@ fn outlasts_a_packet(modem: &Table<'_>, period_ns: i64, packet: Option<&Physical
     }
 }
 
-fn listen(table: &Table<'_>) -> Option<i64> {
-    let listen_ns = table.time_ns("listen_s", None, 1)?;
+/// How long the medium must have been quiet: one packet, unless the table says it.
+fn listen(table: &Table<'_>, packet_ns: i64) -> Option<i64> {
+    let listen_ns = table.time_ns("listen_s", Some(packet_ns.min(LISTEN_MAX_NS)), 1)?;
     if listen_ns > LISTEN_MAX_NS {
         let most_s = in_seconds(LISTEN_MAX_NS);
         table.refuse(
@@ -133,41 +123,45 @@ fn has_no_phase(modem: &Table<'_>, name: &str) {
     }
 }
 
-/// Refuses a period or a phase: the slots are both.
-fn not_with_slots(modem: &Table<'_>, period_ns: Option<i64>) {
-    for key in ["ping_period_s", "ping_phase_s"] {
-        // Silence is no period.
-        if modem.has(key) && (key != "ping_period_s" || period_ns.is_some()) {
-            modem.refuse(
-                key,
-                "with slots, an AUV pings once in each frame, at the beginning of its own slot",
-                "the period is `slots` x `slot_s`",
-                format!("remove `{key}`"),
-            );
-        }
-    }
-}
-
+/// Slots: of the stated length, or as long as the stated period shared among them allows.
 fn slotted(
     table: &Table<'_>,
+    period_ns: Option<i64>,
     packet: Option<&PhysicalLayer>,
     around: &Surroundings<'_>,
 ) -> Option<MediumAccess> {
-    let slot_ns = table.time_ns("slot_s", None, PERIOD_MIN_NS);
     // Wrong counts are reported where they are; no AUV is no number of slots.
     let auvs = around.auvs.unwrap_or(1).max(1);
     let slots = table
         .whole("slots", Some(auvs.into()), 1, AUVS_MAX.into())
         .and_then(|slots| u32::try_from(slots).ok());
+    let shared_ns = period_ns.zip(slots).map(|(period_ns, slots)| (period_ns / i64::from(slots)).max(1));
+    let slot_ns = table.time_ns("slot_s", shared_ns, PERIOD_MIN_NS);
     let diagonal_m = around
         .environment
         .map_or(0.0, |environment| norm(environment.area_m.map(|[least, greatest]| greatest - least)));
     let guard_range_m = table.number("guard_range_m", Some(diagonal_m), Rule::NotNegative);
     let (slot_ns, slots, guard_range_m) = (slot_ns?, slots?, guard_range_m?);
     if let Some(environment) = around.environment {
-        holds_a_packet(table, slot_ns, guard_range_m, packet, environment);
+        holds_a_packet(table, (slot_ns, slots), guard_range_m, packet, environment);
     }
-    if slot_ns.checked_mul(slots.into()).is_none() {
+    let frame_ns = slot_ns.checked_mul(slots.into());
+    if let (Some(period_ns), Some(frame_ns), true) = (period_ns, frame_ns, table.has("slot_s"))
+        && period_ns != frame_ns
+    {
+        table.refuse(
+            "slot_s",
+            format!(
+                "{slots} slots of {} s are {} s, but `ping_period_s` is {} s",
+                in_seconds(slot_ns),
+                in_seconds(frame_ns),
+                in_seconds(period_ns)
+            ),
+            "with slots, an AUV pings once in each frame",
+            "remove `ping_period_s` or `slot_s`: either follows from the other",
+        );
+    }
+    if frame_ns.is_none() {
         table.refuse(
             "slot_s",
             format!("a frame of {slots} slots of {} s never ends", in_seconds(slot_ns)),
@@ -180,7 +174,7 @@ fn slotted(
 
 fn holds_a_packet(
     table: &Table<'_>,
-    slot_ns: i64,
+    (slot_ns, slots): (i64, u32),
     guard_range_m: f64,
     packet: Option<&PhysicalLayer>,
     environment: &Environment,
@@ -208,7 +202,15 @@ fn holds_a_packet(
             rounded(needed_s, 4)
         ),
         "runs into the next slot",
-        format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s)),
+        match table.has("slot_s") {
+            true => {
+                format!("write `slot_s = {}` or more, or a shorter `guard_range_m`", rounded_up(needed_s))
+            }
+            false => format!(
+                "write `ping_period_s = {}` or more, or a shorter `guard_range_m`",
+                rounded_up(needed_s * f64::from(slots))
+            ),
+        },
     );
 }
 

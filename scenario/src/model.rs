@@ -510,11 +510,71 @@ pub enum Place {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Estimator {
-    /// The state tube.
-    Tube {
-        /// Local nanoseconds of the past that are kept.
-        horizon_ns: i64,
-    },
+    /// The state tube: guaranteed, contracted by every measurement.
+    Tube(TubeSettings),
+    /// An extended Kalman filter: a Gaussian, without guarantee.
+    Ekf(EkfSettings),
+    /// Log, attitude and clock alone, from the prior on.
+    DeadReckoning,
+}
+
+/// How a tube estimator works.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TubeSettings {
+    /// Local nanoseconds of the past that are kept. What is told later than that is ignored, so no packet may take longer.
+    pub horizon_ns: i64,
+    /// So many of the last pings are kept as rings around the present position, carried along by odometry; 0 for none.
+    pub rings: u16,
+    /// So often, at most, a tick's news are propagated backward and forward through the horizon; 0 for forward only.
+    pub passes: u8,
+    /// No further pass when the last one made nothing smaller by this part of its width.
+    pub stopping_ratio: f64,
+    /// What may be wrong of what is heard; nothing when `None`.
+    pub outliers: Option<Outliers>,
+    /// What to do when nothing is left.
+    pub on_empty: Recovery,
+}
+
+/// How many pings may be wrong: at most `tolerated` of any `window` in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Outliers {
+    /// m, in pings heard.
+    pub window: u16,
+    /// q, the most that is ever assumed.
+    pub tolerated: u16,
+    /// Assume the fewest that leave something (GOMNE) and this margin r more, but never more than q; `None` to assume q.
+    pub margin: Option<u16>,
+}
+
+/// What an estimator does when nothing is left of its set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Recovery {
+    /// Ignores the measurement that left nothing.
+    Drop,
+    /// Ignores as few of the remembered pings as leave something.
+    Relax,
+    /// Begins again, from the whole area.
+    Restart,
+}
+
+/// How a Kalman filter works.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EkfSettings {
+    /// An innovation of more than so many standard deviations is rejected; infinite to believe everything.
+    pub gate_sigma: f64,
+    /// How what others believe is taken in.
+    pub fusion: Fusion,
+}
+
+/// How a Gaussian takes in what others believe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fusion {
+    /// As if it were independent of what the AUV believes itself.
+    Independent,
+    /// By covariance intersection, which holds whatever they have in common.
+    CovarianceIntersection,
 }
 
 /// How they steer.

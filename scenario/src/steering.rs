@@ -1,33 +1,14 @@
-//! The keys `controller` and `estimator` of a group: by name, or as a table with a `name`.
+//! The key `controller` of a group: by name, or as a table with a `name`.
 
 use toml::de::DeValue;
 
 use crate::current::fastest_current_m_s;
 use crate::environment::contains;
-use crate::model::{Controller, Environment, Estimator, Kind};
+use crate::model::{Controller, Environment, Kind};
 use crate::number::Rule;
 use crate::reader::Table;
 
-const HORIZON_DEFAULT_NS: i64 = 10_000_000_000;
 const FORGET_DEFAULT_NS: i64 = 5_000_000_000;
-
-pub(crate) fn estimator(group: &Table<'_>) -> Option<Estimator> {
-    let default = Estimator::Tube { horizon_ns: HORIZON_DEFAULT_NS };
-    if !group.has("estimator") {
-        group.get("estimator");
-        return Some(default);
-    }
-    let (name, table) = group.name_or_table("estimator", "[group.estimator]")?;
-    if name != "tube" {
-        let span = table.as_ref().map_or(group.span("estimator"), |table| table.span("name"));
-        group.unknown_name(span, "estimator", name, ["tube"].into_iter());
-        return None;
-    }
-    let Some(table) = table else { return Some(default) };
-    let horizon_ns = table.time_ns("horizon_s", Some(HORIZON_DEFAULT_NS), 1);
-    table.finish();
-    Some(Estimator::Tube { horizon_ns: horizon_ns? })
-}
 
 /// What the checks of a controller need to know.
 pub(crate) struct Surroundings<'a> {

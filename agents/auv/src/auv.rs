@@ -28,7 +28,9 @@ impl Auv {
     pub fn new(born: &Born) -> Self {
         let believed = sabotage::believed(born);
         let estimator = match born.orders.estimator {
-            EstimatorOrders::Tube { .. } => Box::new(TubeEstimator::new(&believed)),
+            EstimatorOrders::Tube(_) | EstimatorOrders::Ekf(_) | EstimatorOrders::DeadReckoning => {
+                Box::new(TubeEstimator::new(&believed))
+            }
         };
         let orders = &born.orders;
         let lead_ns = born.wake.reaction_ns + born.wake.period_ns / 2;
@@ -70,6 +72,9 @@ impl Auv {
             emptied,
             neighbours,
             contractions: estimate.contractions,
+            rejected: estimate.rejected,
+            components: estimate.components,
+            gaussian: estimate.gaussian,
         }
     }
 }

@@ -5,10 +5,11 @@
 //! disturbance is noise that may jump anywhere in its box, so all of its box is taken off. What is left holds the current
 //! at that moment.
 //!
-//! The current c that the moving body meets changes by at most `L dt + S` within `dt` true seconds (per axis; the step S because the
-//! simulator's current is that of the last knot). Then there is a steady part g with slope L at most and `|c - g| <= S / 2`, namely
-//! `g(t) = S / 2 + inf over r of c(r) + L |t - r|`: at most `c(t) + S / 2` by r = t, at least `c(t) - S / 2` by the bound. So g is what
-//! is remembered: it widens with time by its slope, and the step is paid for once, not at every tick.
+//! The current c that the moving body meets changes by at most `L dt + S` within `dt` true seconds, per axis; the step S is there
+//! because the simulator's current is that of the last knot. Then there is a steady part g of slope L at most with
+//! `|c - g| <= S / 2`, namely `g(t) = S / 2 + inf over r of (c(r) + L |t - r|)`: at most `c(t) + S / 2` by `r = t`, at least
+//! `c(t) - S / 2` by the bound. So g is what is remembered: it widens with time by its slope, and the step is paid for once,
+//! not at every tick.
 
 use nalgebra::Vector3;
 use shoal_bus::message::{BodyBounds, Measured};

@@ -1,6 +1,6 @@
 //! How an AUV finds out where it is, and when.
 
-use shoal_bus::message::{Emptied, Sensed};
+use shoal_bus::message::{Emptied, Gaussian, Sensed};
 use shoal_bus::time::LocalTime;
 use shoal_interval::{Interval, IntervalBox};
 
@@ -26,6 +26,12 @@ pub struct Estimate {
     pub emptied: Option<Emptied>,
     /// How many measurements made the state smaller.
     pub contractions: u16,
+    /// How many pings were taken for outliers, or dropped.
+    pub rejected: u16,
+    /// In how many separate parts the state may lie.
+    pub components: u16,
+    /// What a Kalman filter believes.
+    pub gaussian: Option<Gaussian>,
 }
 
 /// What is known of a moment to come.

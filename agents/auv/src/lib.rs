@@ -17,6 +17,7 @@
 //! | `neighbours.rs` | who is around |
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
+//! | `rings.rs` | pings as rings around the present position |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -32,6 +33,7 @@ pub mod neighbours;
 #[cfg(test)]
 mod newborn;
 pub mod odometry;
+pub mod rings;
 mod sabotage;
 pub mod state;
 pub mod tube_estimator;

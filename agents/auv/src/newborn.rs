@@ -2,7 +2,7 @@
 
 use shoal_bus::message::{
     AuvId, BodyBounds, Born, Bounds, ClockBounds, Controller, Estimator, MediumAccess, ModemBounds, Orders,
-    Wake,
+    TubeSettings, Wake,
 };
 use shoal_bus::time::LocalTime;
 
@@ -40,7 +40,7 @@ pub fn newborn(access: MediumAccess) -> Born {
             frame_bytes: 64,
         },
         orders: Orders {
-            estimator: Estimator::Tube { horizon_ns: 100 * PERIOD_NS },
+            estimator: Estimator::Tube(TubeSettings::forward(100 * PERIOD_NS)),
             controller: Controller::Hold,
             access,
             area_m: [Bounds::new(-1e4, 1e4); 3],

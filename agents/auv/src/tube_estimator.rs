@@ -34,7 +34,10 @@ impl TubeEstimator {
     /// The tube that begins with what the AUV was told at birth.
     pub fn new(born: &Born) -> Self {
         let motion = Motion::new(&born.body, &born.clock);
-        let Orders::Tube { horizon_ns } = born.orders.estimator;
+        let horizon_ns = match born.orders.estimator {
+            Orders::Tube(settings) => settings.horizon_ns,
+            Orders::Ekf(_) | Orders::DeadReckoning => 0,
+        };
         let state = State {
             offset_s: interval(born.clock.offset_s),
             position_m: interval_box(&born.prior_position_m),
@@ -154,6 +157,7 @@ impl Estimator for TubeEstimator {
     fn update(&mut self, sensed: &Sensed) -> Estimate {
         let mut emptied = None;
         let mut contractions = 0;
+        let mut rejected = 0;
         let after_m_s = self.look_at_log(sensed, &mut emptied);
         let begun = self.now;
         let length_s = seconds(sensed.stamp - begun);
@@ -186,6 +190,7 @@ impl Estimator for TubeEstimator {
                         state = contracted;
                     }
                     Err(Contradiction(by)) => {
+                        rejected += u16::from(matches!(by, Culprit::Ping(_)));
                         emptied.get_or_insert(Emptied { stamp: event.stamp, by });
                     }
                 }
@@ -204,7 +209,7 @@ impl Estimator for TubeEstimator {
         self.now = sensed.stamp;
         self.velocity_m_s = after_m_s;
         self.current = current;
-        Estimate { state, slice, emptied, contractions }
+        Estimate { state, slice, emptied, contractions, rejected, components: 1, gaussian: None }
     }
 
     fn predict(&self, at: LocalTime) -> Prediction {

@@ -6,8 +6,8 @@ mod bounds;
 use nalgebra::Vector3;
 use pxfm::f_sincos;
 use shoal_bus::message::{
-    AuvId, Born, Bounds, BoundsBox, ClockBounds, Controller, Estimator, Fleetmates, MediumAccess, Orders,
-    Sabotage, Wake,
+    AuvId, Born, Bounds, BoundsBox, ClockBounds, Controller, EkfSettings, Estimator, Fleetmates, Fusion,
+    MediumAccess, Orders, Outliers, Recovery, Sabotage, TubeSettings, Wake,
 };
 use shoal_bus::time::SimTime;
 use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
@@ -147,9 +147,8 @@ fn prior_box(group: &Group, position_m: &Vec3, draws: &mut Draws) -> BoundsBox {
 }
 
 fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) -> Orders {
-    let model::Estimator::Tube { horizon_ns } = group.estimator;
     Orders {
-        estimator: Estimator::Tube { horizon_ns },
+        estimator: estimator(&group.estimator),
         controller: controller(scenario, group, index),
         access,
         area_m: scenario.environment.area_m.map(|[least, greatest]| Bounds::new(least, greatest)),
@@ -191,4 +190,34 @@ fn fleetmates(scenario: &Scenario, group: u16) -> Fleetmates {
     let (before, from) = scenario.groups.split_at(usize::from(group));
     let first = AuvId(before.iter().map(|group| group.count).sum());
     Fleetmates { first, count: from.first().map_or(0, |group| group.count) }
+}
+
+/// How an AUV estimates, as it is told.
+fn estimator(of: &model::Estimator) -> Estimator {
+    match *of {
+        model::Estimator::Tube(of) => Estimator::Tube(TubeSettings {
+            horizon_ns: of.horizon_ns,
+            rings: of.rings,
+            passes: of.passes,
+            stopping_ratio: of.stopping_ratio,
+            outliers: of.outliers.map(|of| Outliers {
+                window: of.window,
+                tolerated: of.tolerated,
+                margin: of.margin,
+            }),
+            on_empty: match of.on_empty {
+                model::Recovery::Drop => Recovery::Drop,
+                model::Recovery::Relax => Recovery::Relax,
+                model::Recovery::Restart => Recovery::Restart,
+            },
+        }),
+        model::Estimator::Ekf(of) => Estimator::Ekf(EkfSettings {
+            gate_sigma: of.gate_sigma,
+            fusion: match of.fusion {
+                model::Fusion::Independent => Fusion::Independent,
+                model::Fusion::CovarianceIntersection => Fusion::CovarianceIntersection,
+            },
+        }),
+        model::Estimator::DeadReckoning => Estimator::DeadReckoning,
+    }
 }

@@ -101,6 +101,13 @@ pub struct ReportRow {
     pub neighbours: u16,
     /// Measurements that made the enclosure smaller since the tick before.
     pub contractions: u16,
+    /// Pings told at this tick that the estimator took for outliers, or dropped.
+    pub rejected: u16,
+    /// Separate parts of the set.
+    pub components: u16,
+    /// What a Kalman filter believes.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub gaussian: Option<GaussianRow>,
     /// Desired velocity through the water, in m/s.
     pub setpoint_m_s: Vector,
     /// Pings booked at this tick.
@@ -124,6 +131,12 @@ impl ReportRow {
             emptied: report.emptied.map(EmptiedRow::new),
             neighbours: report.neighbours,
             contractions: report.contractions,
+            rejected: report.rejected,
+            components: report.components,
+            gaussian: report.gaussian.map(|gaussian| GaussianRow {
+                mean: gaussian.mean.map(Real),
+                covariance: gaussian.covariance.map(Real),
+            }),
             setpoint_m_s: vector(acted.setpoint.velocity_m_s),
             booked: acted
                 .pings
@@ -132,6 +145,15 @@ impl ReportRow {
                 .collect(),
         }
     }
+}
+
+/// A Gaussian over position and clock.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GaussianRow {
+    /// East, north, up in metres, and true minus local time in seconds.
+    pub mean: [Real; 4],
+    /// The upper triangle of the covariance, row by row.
+    pub covariance: [Real; 10],
 }
 
 /// Why an enclosure emptied.

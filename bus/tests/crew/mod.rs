@@ -125,6 +125,9 @@ impl Mind for Echo {
                 emptied: None,
                 neighbours: 0,
                 contractions: sensed.events.len() as u16,
+                rejected: 0,
+                components: 1,
+                gaussian: None,
             },
         }
     }
@@ -166,7 +169,7 @@ pub fn born(count: u32) -> Vec<Born> {
             frame_bytes: 32,
         },
         orders: Orders {
-            estimator: Estimator::Tube { horizon_ns: 1 },
+            estimator: Estimator::DeadReckoning,
             controller: Controller::Hold,
             access: MediumAccess::Silent,
             area_m: side,

@@ -1,5 +1,7 @@
 //! Which way sound goes: speed of sound over depth, and rays that leave a source in many directions.
 
+use std::collections::BTreeSet;
+
 use shoal_bus::record::rows::PingRow;
 use shoal_bus::record::{RecordHeader, Row, Topic};
 use shoal_channel::acoustics::ray::{Direction, WaterColumn, Waypoint};
@@ -72,16 +74,19 @@ impl Plot for Rays {
         if !range_m.is_finite() {
             return Err(format!("rays cannot be followed for {range_m} m"));
         }
+        let pieces = fan(&column, depth_m, range_m);
+        let layer = |(way, turns): (Way, Vec<Turn>)| Layer::Arcs { colour: way.colour(), turns };
+        let source = Layer::Marks { mark: SOURCE, points: vec![[0.0, depth_m]] };
         let depth_axis = |label: &str| Axis::new(label, bottom_m, 0.0);
         let rays = Panel {
             width_px: 640.0,
             x: Axis::new("horizontal range (m)", 0.0, range_m),
             y: depth_axis("depth (m)"),
-            layers: fan(&column, depth_m, range_m),
+            layers: pieces.iter().cloned().map(layer).chain([source]).collect(),
         };
-        let mut legend: Vec<Entry> = [Way::Direct, Way::Surface, Way::Bottom]
-            .map(|way| Entry::new(Sample::Line(way.colour()), way.name()))
-            .into();
+        let ways: BTreeSet<Way> = pieces.iter().map(|(way, _)| *way).collect();
+        let entry = |way: Way| Entry::new(Sample::Line(way.colour()), way.name());
+        let mut legend: Vec<Entry> = ways.into_iter().map(entry).collect();
         legend.push(Entry::new(Sample::Mark(SOURCE), format!("source, {depth_m:.1} m deep")));
         legend.push(Entry::remark(format!("{} rays, slopes to 1 in {:.0}", 2 * RAYS + 1, 1.0 / STEEPEST)));
         Ok(Figure {
@@ -112,8 +117,8 @@ fn speeds(column: &WaterColumn, y: Axis) -> Panel {
     }
 }
 
-/// Rays of equally spaced slopes, those with bounces behind the direct ones.
-fn fan(column: &WaterColumn, depth_m: f64, range_m: f64) -> Vec<Layer> {
+/// The pieces of rays of equally spaced slopes, those with bounces first, so that they lie behind the others.
+fn fan(column: &WaterColumn, depth_m: f64, range_m: f64) -> Vec<(Way, Vec<Turn>)> {
     let mut pieces = Vec::new();
     for index in -RAYS..=RAYS {
         let slope = STEEPEST * f64::from(index) / f64::from(RAYS);
@@ -122,8 +127,7 @@ fn fan(column: &WaterColumn, depth_m: f64, range_m: f64) -> Vec<Layer> {
         pieces.extend(between_bounces(&ray));
     }
     pieces.sort_by_key(|(way, _)| std::cmp::Reverse(*way));
-    let arcs = pieces.into_iter().map(|(way, turns)| Layer::Arcs { colour: way.colour(), turns });
-    arcs.chain([Layer::Marks { mark: SOURCE, points: vec![[0.0, depth_m]] }]).collect()
+    pieces
 }
 
 /// The pieces of a ray from bounce to bounce.

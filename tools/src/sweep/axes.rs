@@ -90,7 +90,9 @@ pub fn combinations(axes: &[Axis]) -> Vec<Vec<Setting>> {
     for axis in axes {
         combinations = combinations
             .iter()
-            .flat_map(|before| axis.settings().map(|setting| [&before[..], &[setting.clone()]].concat()))
+            .flat_map(|before| {
+                axis.settings().map(|setting| [&before[..], std::slice::from_ref(setting)].concat())
+            })
             .collect();
     }
     combinations

@@ -6,10 +6,11 @@
 //! before the slot does, and keeps silent if not. So it does not speak outside its slot as long as its clock keeps its
 //! bounds, and nobody else's packet is in the water within the guard range when everyone has an own slot.
 //!
-//! How often it is silent: a slot is left out exactly when `T` is wider than `slot - packet - propagation` (less the local nanosecond
-//! to which s is found). Without fixes and pings that contract the clock, an offset known to `w` seconds at the start
-//! and a drift bound d allow speech for about `(slot - packet - propagation - w) / (2 d)`: with 1 s to spare, w = 1 ms and d = 50 ppm
-//! for 2.8 hours, with 1 ppm for 5.8 days. From then on every slot is silent, until the clock is known better.
+//! How often it is silent: a slot is left out when `T` is wider than `slot - packet - propagation` (less the local nanosecond to
+//! which s is found), or when its first moments were over before they could be booked. Without fixes and pings that contract the
+//! clock, an offset known to `w` seconds at the start and a drift bound d allow speech for about
+//! `(slot - packet - propagation - w) / (2 d)`: with 1 s to spare and w = 1 ms, 2.8 hours at 50 ppm and 5.8 days at 1 ppm. From then on
+//! every slot is silent, until the clock is known better.
 
 use shoal_bus::time::{LocalTime, NS_PER_S};
 use shoal_interval::Interval;
@@ -30,8 +31,8 @@ pub struct Slotted {
 }
 
 impl Slotted {
-    /// Slot number `slot` of frames of `slots` slots, of `slot_ns` each, which a packet and its sound occupy for `occupied_ns`; all in
-    /// nanoseconds of true time.
+    /// Slot number `slot` of frames of `slots` slots, of `slot_ns` each, which a packet and its sound occupy for `occupied_ns`;
+    /// all in nanoseconds of true time.
     pub fn new(slot_ns: i64, slots: u32, slot: u32, occupied_ns: i64) -> Self {
         let slot_ns = slot_ns.max(1);
         Self {

@@ -2,6 +2,7 @@ mod truth;
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
+use shoal_bus::message::TubeSettings;
 
 use self::truth::{Pushes, Truth, pushes, told};
 use super::*;
@@ -84,7 +85,7 @@ proptest! {
     ) {
         let mut born = told(drift, 0.05);
         // Some packets are longer than what is remembered.
-        born.orders.estimator = Orders::Tube { horizon_ns: 40 * PERIOD_NS };
+        born.orders.estimator = Orders::Tube(TubeSettings::forward(40 * PERIOD_NS));
         let truth = Truth::new(&born, &pushes);
         enclosed(&born, &truth, &heard(&truth, &arrivals, TICKS))?;
     }
@@ -126,7 +127,7 @@ fn a_late_ping_costs_what_the_odometry_lost_since() {
 #[test]
 fn a_ping_beyond_the_horizon_is_ignored() {
     let mut born = told(1e-6, 0.05);
-    born.orders.estimator = Orders::Tube { horizon_ns: 20 * PERIOD_NS };
+    born.orders.estimator = Orders::Tube(TubeSettings::forward(20 * PERIOD_NS));
     let truth = Truth::new(&born, &steady());
     let width_m = |arrivals: &[(i64, i64)]| {
         let estimates = enclosed(&born, &truth, &heard(&truth, arrivals, TICKS)).unwrap();

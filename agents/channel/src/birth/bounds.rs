@@ -4,6 +4,7 @@ use shoal_bus::message::{BodyBounds, Bounds, BoundsBox, ModemBounds};
 use shoal_scenario::model::{Environment, Group, Level, Scenario};
 
 use crate::body::{Body, Vec3};
+use crate::budget::nominal_reach_m;
 use crate::current::{field_change, field_hull_m_s};
 use crate::sensors::rounding;
 use crate::sound::ARRIVAL_TOLERANCE_S;
@@ -58,6 +59,14 @@ fn fastest_m_s(one: &Bounds, other: &Bounds) -> f64 {
     (one.upper + other.upper).max(-one.lower - other.lower)
 }
 
+/// How far others hear it, in metres: at level `sea` on average, and as far as noise lets them.
+fn range_m(scenario: &Scenario, group: &Group) -> f64 {
+    match (&scenario.environment.level, &group.modem.physical) {
+        (Level::Sea(sea), Some(physical)) => nominal_reach_m(sea, physical),
+        _ => group.modem.range_m,
+    }
+}
+
 /// Bounds of the modem and of sound in this water.
 pub fn modem(scenario: &Scenario, group: &Group, water: &Water) -> ModemBounds {
     let hearing_range_m = match scenario.environment.level {
@@ -70,7 +79,7 @@ pub fn modem(scenario: &Scenario, group: &Group, water: &Water) -> ModemBounds {
         Level::Sea(_) => f64::INFINITY,
     };
     ModemBounds {
-        range_m: group.modem.range_m,
+        range_m: range_m(scenario, group),
         hearing_range_m,
         sound_speed_m_s: water.told_sound_speed_m_s,
         timestamp_s: group.modem.timestamp_error_s + ARRIVAL_TOLERANCE_S,

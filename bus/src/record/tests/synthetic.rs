@@ -2,8 +2,8 @@
 
 use crate::chronicle::{Coordinate, Enclosure, Entry, Truth, Violation, What};
 use crate::message::{
-    Acted, AuvId, Bounds, Culprit, Emptied, Event, Measured, PlannedPing, Report, Sense, Sensed, Setpoint,
-    Slice,
+    Acted, AuvId, Bounds, Culprit, Emptied, Event, Gaussian, Measured, PlannedPing, Report, Sense, Sensed,
+    Setpoint, Slice,
 };
 use crate::ping::Frame;
 use crate::record::{RecordHeader, RecordWriter, RecordedAuv};
@@ -145,6 +145,9 @@ fn tick_of(auv: AuvId, at: SimTime, tick: u64, noise: &mut Noise, entries: &mut 
             emptied: (tick == 5 && auv.0 == 1).then_some(Emptied { stamp, by: Culprit::Ping(AuvId(0)) }),
             neighbours: 12,
             contractions: 3,
+            rejected: 1,
+            components: 2,
+            gaussian: (tick % 2 == 0).then_some(Gaussian { mean: [0.5; 4], covariance: [0.25; 10] }),
         },
     };
     let mut push = |what| entries.push(Entry { at, auv, what });

@@ -1,0 +1,68 @@
+//! Anchored rings: every ping remembered is a ring for the *present* position.
+//!
+//! A ping heard at s then says `|p_i - p(s)| in [c] ([t](s) - [a])` (seed 001, equation 5.7). With the way w from s to now, `p(s) = p - w`, so the
+//! present position lies as far from `p_i + w`: the ring's centre moves along with the body, as wide as the emitter's box and what
+//! odometry may have lost since. Several rings at once pin down what one after the other, box by box, would not.
+
+use shoal_bus::message::{AuvId, Culprit};
+use shoal_bus::ping::Ping;
+use shoal_interval::contractor::{Contracted, contract_range};
+use shoal_interval::{Interval, IntervalBox};
+
+use crate::bounds::{interval, interval_box};
+use crate::odometry::Way;
+use crate::state::{Contradiction, Sound, State};
+
+/// A ping heard, as it bears on the present.
+#[derive(Clone, Copy, Debug)]
+pub struct Ring {
+    /// Who sent it.
+    pub sender: AuvId,
+    /// Where the emitter was at the emission, in metres.
+    pub emitter_m: IntervalBox<3>,
+    /// True time of the emission, in seconds.
+    pub emission_s: Interval,
+    /// Exact local time of the arrival, with every tolerance of its stamp, in seconds.
+    pub arrival_s: Interval,
+    /// What the body and the clock did since, with every tolerance of the stamp.
+    pub since: Way,
+}
+
+impl Ring {
+    /// The ring of a ping that arrives now.
+    pub fn new(ping: &Ping, arrival_s: Interval, since: Way) -> Self {
+        Self {
+            sender: ping.sender,
+            emitter_m: interval_box(&ping.position_m),
+            emission_s: interval(ping.emission_s),
+            arrival_s,
+            since,
+        }
+    }
+
+    /// Goes along with the body.
+    pub fn carry(&mut self, way: &Way) {
+        self.since = self.since.then(way);
+    }
+
+    /// The present states that this ping allows.
+    ///
+    /// # Errors
+    /// The ping, when it allows none.
+    pub fn contract(&self, state: &State, sound: &Sound) -> Result<State, Contradiction> {
+        let mut position_m = state.position_m;
+        let mut centre_m = self.emitter_m + self.since.displacement_m;
+        let mut speed_m_s = sound.speed_m_s;
+        let mut emission_s = self.emission_s;
+        let longest_delay_s = Interval::spanning(0.0, sound.hearing_range_m) / speed_m_s;
+        let reception_s = state.offset_s - self.since.offset_gain_s + self.arrival_s;
+        let mut reception_s = reception_s.intersection(emission_s + longest_delay_s);
+        let contracted =
+            contract_range(&mut position_m, &mut centre_m, &mut speed_m_s, &mut reception_s, &mut emission_s);
+        let offset_s = state.offset_s.intersection(reception_s - self.arrival_s + self.since.offset_gain_s);
+        if contracted == Contracted::Empty || offset_s.is_empty() {
+            return Err(Contradiction(Culprit::Ping(self.sender)));
+        }
+        Ok(State { offset_s, position_m })
+    }
+}

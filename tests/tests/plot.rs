@@ -1,0 +1,45 @@
+//! Figures of real runs.
+
+use shoal_tests::{Command, scenario_file};
+
+#[test]
+fn a_record_becomes_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let [record, figure, cut] = ["run.mcap", "figure.svg", "cut.mcap"].map(|name| folder.path().join(name));
+    let summary =
+        Command::new("run --bus local").with(scenario_file("shadow")).and("--record").with(&record).json();
+    for kind in ["losses", "ranges", "reach", "rays", "sinr"] {
+        Command::new("plot").with(&record).and(kind).and("-o").with(&figure).finish().succeeded();
+        let svg = std::fs::read_to_string(&figure).unwrap();
+        assert!(svg.starts_with("<svg") && svg.contains("shadow, seed 3, 30 AUVs"), "{kind}: {svg}");
+        let printed = Command::new("plot").with(&record).and(kind).finish().succeeded().stdout;
+        assert_eq!(printed, svg, "{kind}");
+    }
+    // What the figure counts is what the run counted.
+    let svg = Command::new("plot").with(&record).and("losses").finish().succeeded().stdout;
+    let digits: String = svg.replace(',', "");
+    for (words, count) in
+        [("heard", &summary["pings"]["heard"]), ("pings emitted", &summary["pings"]["emitted"])]
+    {
+        assert!(digits.contains(&format!("{words}: {count}<")), "{words}: {count}");
+    }
+
+    let bytes = std::fs::read(&record).unwrap();
+    std::fs::write(&cut, &bytes[..bytes.len() * 2 / 3]).unwrap();
+    let finished = Command::new("plot").with(&cut).and("reach").finish();
+    assert_eq!(finished.status.code(), Some(3), "{finished:?}");
+    assert!(finished.stdout.starts_with("<svg") && finished.stderr.contains("ends before the run does"));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let refused = |arguments: &str, code: i32, words: &str| {
+        let finished = Command::new(arguments).finish();
+        assert_eq!(finished.status.code(), Some(code), "{finished:?}");
+        assert!(finished.stderr.contains(words), "{finished:?}");
+        assert_eq!(finished.stdout, "");
+    };
+    refused("plot nowhere.mcap losses", 1, "nowhere.mcap: ");
+    refused("plot Cargo.toml losses", 1, "Cargo.toml: this is not an MCAP file");
+    refused("plot nowhere.mcap lost", 2, "losses");
+}
