@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use shoal_bus::message::{Acted, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
+use shoal_scenario::LISTEN_MAX_NS;
 
 use crate::birth::Newborn;
 use crate::body::{Body, Pose, Vec3};
@@ -14,8 +15,6 @@ use crate::sensors::Sensors;
 
 /// So many pings beyond twice its schedule may wait to be emitted; more is an AUV out of its mind.
 const PINGS_OUTSTANDING: usize = 64;
-/// A modem listens at most so long before it emits, in nanoseconds.
-pub const LISTEN_MAX_NS: i64 = 10 * 1_000_000_000;
 /// A ping may be booked at most so much earlier than a schedule needs, in local nanoseconds.
 const BOOKING_SLACK_NS: i64 = 60 * 1_000_000_000;
 
