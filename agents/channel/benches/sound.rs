@@ -8,7 +8,7 @@
 //! better than times. At level `sea` there are a thermocline, two bounces, Rician fading, and a modem
 //! that is noticed as far, 250 m with luck; farther out its packets only disturb.
 //!
-//! `cargo bench -p shoal-channel --bench sound [-- FILTER]`
+//! `cargo bench -p shoal-channel --bench sound [-- ideal|sea] [-- 100|1000|10000]`
 
 use std::time::Instant;
 
@@ -46,7 +46,7 @@ fn main() {
         let mut ideal_ns = None;
         for (level, smallest_ns) in ["ideal", "sea"].into_iter().zip(&mut smallest_ns) {
             let name = format!("channel/ping/{level}/{auvs}");
-            if filters.iter().any(|filter| !name.contains(filter.as_str())) {
+            if filters.iter().any(|filter| name.split('/').all(|part| part != filter)) {
                 continue;
             }
             let Cost { ping_ns, neighbours } = cost(&scenario(level, auvs), measured_s, runs);
