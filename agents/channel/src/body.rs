@@ -123,6 +123,8 @@ pub struct Body {
     setpoints: VecDeque<(SimTime, Vec3)>,
     /// What is remembered, the last one reaching beyond what is integrated so far.
     segments: VecDeque<Segment>,
+    /// Number of the knot at or before the start of the first of them.
+    first_knot: i64,
     shift: Option<SimTime>,
 }
 
@@ -147,6 +149,7 @@ impl Body {
             goal: attitude,
             setpoints: VecDeque::new(),
             segments: VecDeque::new(),
+            first_knot: 0,
             shift: None,
         };
         body.begin(SimTime::ZERO, position_m, attitude, attitude.velocity_m_s());
@@ -205,8 +208,13 @@ impl Body {
 
     /// Forgets motion that ended before `t`; it will not be asked again.
     pub fn forget_before(&mut self, t: SimTime) {
-        while self.segments.len() > 1 && self.segments[0].end < t {
-            self.segments.pop_front();
+        let mut forgotten = 0;
+        while forgotten + 1 < self.segments.len() && self.segments[forgotten].end < t {
+            forgotten += 1;
+        }
+        if forgotten > 0 {
+            self.segments.drain(..forgotten);
+            self.first_knot = self.segments[0].start.ns().div_euclid(self.knot_ns);
         }
     }
 
@@ -227,14 +235,24 @@ impl Body {
         segment.ground_velocity_m_s + segment.acceleration_m_s2 * segment.elapsed_s(t)
     }
 
-    /// The stretches that are remembered, in order.
-    pub fn segments(&self) -> impl Iterator<Item = &Segment> {
-        self.segments.iter()
+    /// The stretch that holds `t` and all later ones, in order.
+    pub fn segments_from(&self, t: SimTime) -> impl Iterator<Item = &Segment> {
+        self.segments.range(self.index_at(t)..)
     }
 
     fn segment_at(&self, t: SimTime) -> &Segment {
-        let after = self.segments.partition_point(|segment| segment.start <= t);
-        &self.segments[after.saturating_sub(1)]
+        &self.segments[self.index_at(t)]
+    }
+
+    /// Found from the number of knots since the first stretch: every knot begins one, and setpoints begin few more.
+    fn index_at(&self, t: SimTime) -> usize {
+        let last = self.segments.len() - 1;
+        let knots = t.ns().div_euclid(self.knot_ns) - self.first_knot;
+        let mut index = last.min(knots.max(0) as usize);
+        while index < last && self.segments[index].end <= t {
+            index += 1;
+        }
+        index
     }
 
     /// Starts a stretch at `start`, up to the next knot or setpoint.

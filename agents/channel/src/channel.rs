@@ -198,7 +198,7 @@ impl Channel {
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
         self.chronicled.clear();
         self.chronicled.append(&mut self.happened);
-        self.chronicled.sort_by_key(canonical_order);
+        self.chronicled.sort_by_cached_key(canonical_order);
         self.digest.update(&self.chronicled)?;
         Ok(&self.chronicled)
     }
@@ -236,11 +236,17 @@ impl Channel {
         if leaving.is_empty() {
             return;
         }
-        leaving.sort_by_key(|&(at, auv, _)| (at, auv));
         let start = self.now;
         self.places_m.clear();
         self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(start)));
         self.grid.sort(&self.places_m, self.medium.farthest_m());
+        if leaving.iter().any(|(_, _, planned)| planned.listen_ns > 0) {
+            // What a modem hears decides whether it emits, so what came before has to be known.
+            leaving.sort_by_key(|&(at, auv, _)| (at, auv));
+        } else {
+            // Otherwise only an emitter's own order counts, and neighbours in space share neighbours in memory.
+            leaving.sort_by_key(|&(at, auv, _)| (self.grid.cell_of(auv.0 as usize), auv, at));
+        }
         for (at, from, planned) in leaving {
             self.emit_one(at, from, planned);
         }
@@ -307,7 +313,11 @@ impl Channel {
     fn arrive(&mut self, to: SimTime) {
         let mut told = std::mem::take(&mut self.told);
         self.medium.arrive(to, &mut self.vehicles, &mut told);
-        told.sort_by_key(|told| (told.at, told.to, told.wavefront.from, told.wavefront.sequence));
+        // Receivers share nothing, so that each takes all that is its own at once.
+        told.sort_by(|one, other| {
+            let packet = |told: &Told| (told.wavefront.from, told.wavefront.sequence);
+            (one.to, one.at).cmp(&(other.to, other.at)).then_with(|| packet(one).cmp(&packet(other)))
+        });
         for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
             let receiver = &mut self.vehicles[to.0 as usize];
             let (from, sequence) = (wavefront.from, wavefront.sequence);

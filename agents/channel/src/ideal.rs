@@ -14,6 +14,7 @@ pub struct Ideal {
     sound_speed_m_s: f64,
     farthest_m: f64,
     flights: Vec<Flight>,
+    due: Vec<Flight>,
 }
 
 impl Ideal {
@@ -23,6 +24,7 @@ impl Ideal {
             sound_speed_m_s,
             farthest_m: reach_m(farthest_m, fastest_m_s, sound_speed_m_s),
             flights: Vec::new(),
+            due: Vec::new(),
         }
     }
 
@@ -60,10 +62,10 @@ impl Ideal {
     /// All wavefronts that reach their receivers before `to`, in no particular order.
     pub fn arrive(&mut self, to: SimTime, vehicles: &mut [Vehicle], told: &mut Vec<Told>) {
         let sound_speed_m_s = self.sound_speed_m_s;
-        self.flights.retain(|flight| {
-            if flight.earliest >= to {
-                return true;
-            }
+        self.due.extend(self.flights.extract_if(.., |flight| flight.earliest < to));
+        // One receiver after the other, as they lie in memory.
+        self.due.sort_by_key(|flight| flight.to);
+        let flying = self.due.extract_if(.., |flight| {
             let receiver = &vehicles[flight.to.0 as usize];
             let Some(arrival) = flight.arrival(&receiver.body, sound_speed_m_s, to) else { return true };
             let (to, range_m, wavefront) = (flight.to, arrival.range_m, Arc::clone(&flight.wavefront));
@@ -82,6 +84,8 @@ impl Ideal {
             told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None });
             false
         });
+        self.flights.extend(flying);
+        self.due.clear();
     }
 
     /// Wavefronts on their way.

@@ -105,7 +105,7 @@ pub fn reach_m(range_m: f64, speed_m_s: f64, sound_speed_m_s: f64) -> f64 {
 impl Flight {
     /// When and where it arrives, if that is before `horizon`, up to which the receiver's motion is settled.
     pub fn arrival(&self, receiver: &Body, sound_speed_m_s: f64, horizon: SimTime) -> Option<Arrival> {
-        for segment in receiver.segments().filter(|segment| segment.end > self.earliest) {
+        for segment in receiver.segments_from(self.earliest) {
             if segment.start >= horizon {
                 return None;
             }
