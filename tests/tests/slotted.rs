@@ -1,10 +1,12 @@
 //! Time division on drifting clocks: no two packets ever meet, whatever the clocks, and more is heard than by any other rule.
 
+use std::collections::BTreeMap;
+
 use shoal_auv::Auv;
 use shoal_bus::chronicle::What;
 use shoal_bus::summary::{Pings, Summary};
-use shoal_bus::traffic::{Fate, LossReason};
-use shoal_scenario::model::{MediumAccess, Noise, Scenario};
+use shoal_bus::traffic::{Fate, LossReason, Traffic};
+use shoal_scenario::model::{Clock, MediumAccess, Noise, Scenario};
 use shoal_scenario::presets::CLOCKS;
 use shoal_scenario::{PING_BYTES, load, parse};
 use shoal_tests::{run_local, run_local_watched};
@@ -54,11 +56,25 @@ start = {{ region_m = [[20, 180], [20, 180], [-80, -20]], box_width_m = 10 }}
     scenario
 }
 
+/// As [`crowd`], half of it with quartzes that were set by hand: off by up to 0.4 s, twice what a slot can spare.
+fn half_astray(seed: u64, noise: Noise) -> Scenario {
+    let mut scenario = crowd("\"tcxo\"", seed, noise);
+    let mut astray = scenario.groups[0].clone();
+    astray.name = "astray".to_owned();
+    astray.clock = Clock { drift_bound: 5e-5, wander_fraction: 0.5, offset_bound_s: 0.4 };
+    scenario.groups[0].count = 6;
+    astray.count = 6;
+    // Theirs are the first slots: nobody has told them the time yet.
+    scenario.groups.insert(0, astray);
+    scenario
+}
+
 /// Runs it, and checks that every packet was alone wherever it was heard or lost.
-fn never_collides(scenario: &Scenario, name: &str) -> Summary {
+fn never_collides(scenario: &Scenario, name: &str, mut watch: impl FnMut(&Traffic)) -> Summary {
     let mut farthest_m = 0.0_f64;
     let summary = run_local_watched(scenario, None, Auv::new, |entry| {
         let What::Traffic(traffic) = &entry.what else { return };
+        watch(traffic);
         match &traffic.fate {
             Fate::Heard { range_m, .. } => farthest_m = farthest_m.max(*range_m),
             Fate::Lost { range_m, reason, colliding, .. } => {
@@ -83,9 +99,26 @@ fn slotted_packets_never_meet_whatever_the_clock() {
     let clocks = named.chain([offset(0.02), offset(0.05), "{ drift_bound = 5e-4 }".to_owned()]);
     for clock in clocks {
         for (seed, noise) in [(1, Noise::Uniform), (2, Noise::Adversarial)] {
-            let summary = never_collides(&crowd(&clock, seed, noise), &clock);
+            let summary = never_collides(&crowd(&clock, seed, noise), &clock, |_| {});
             // Five frames of 11.4 s, each AUV heard by eleven others.
             assert!(summary.pings.heard > 4 * 12 * 11, "{clock}: {:?}", summary.pings);
+        }
+    }
+}
+
+#[test]
+fn clocks_that_are_off_speak_once_others_have_told_them_the_time() {
+    for (seed, noise) in [(1, Noise::Uniform), (2, Noise::Adversarial), (3, Noise::Adversarial)] {
+        let scenario = half_astray(seed, noise);
+        let mut first_ns = BTreeMap::new();
+        never_collides(&scenario, "half astray", |traffic| {
+            first_ns.entry(traffic.from.0).or_insert(traffic.at.ns());
+        });
+        let frame_ns = 12 * 950_000_000;
+        for auv in 0..12 {
+            // Those who know the time speak in the first frame, the others in the second.
+            let frame = first_ns[&auv] / frame_ns;
+            assert_eq!(frame, if auv < 6 { 1 } else { 0 }, "{auv} {noise:?}: {first_ns:?}");
         }
     }
 }
