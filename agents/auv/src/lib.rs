@@ -19,6 +19,7 @@
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
 //! | `rings.rs` | pings as rings around the present position |
+//! | `together.rs` | all rings at once |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -38,6 +39,7 @@ pub mod offline;
 pub mod rings;
 mod sabotage;
 pub mod state;
+pub mod together;
 pub mod tube_estimator;
 
 pub use auv::Auv;
