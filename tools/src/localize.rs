@@ -17,7 +17,9 @@ use crate::failure::Failure;
 /// Localizes, prints how well, and writes what was found.
 pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     if !args.offline {
-        return Err(Failure::usage("say how to localize: add `--offline` for all trajectories of a record together"));
+        return Err(Failure::usage(
+            "say how to localize: add `--offline` for all trajectories of a record together",
+        ));
     }
     offline::localize(args)
 }

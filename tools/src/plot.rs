@@ -72,7 +72,9 @@ pub fn plot(args: &PlotArgs) -> Result<Exit, Failure> {
         ("--range-m", args.range_m.is_some(), Kind::Rays, "rays"),
         ("--auv", args.auv.is_some(), Kind::Tubes, "tubes"),
     ];
-    if let Some((flag, _, _, name)) = flags.iter().find(|(_, is_given, kind, _)| *is_given && args.kind != *kind) {
+    if let Some((flag, _, _, name)) =
+        flags.iter().find(|(_, is_given, kind, _)| *is_given && args.kind != *kind)
+    {
         return Err(Failure::usage(format!("{flag} is for `{name}`: leave it out")));
     }
     let path = args.record.display();

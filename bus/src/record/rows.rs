@@ -217,9 +217,15 @@ pub struct BookedRow {
 impl BookedRow {
     /// The frame's bytes; `None` when they are not hexadecimal.
     pub fn bytes(&self) -> Option<Vec<u8>> {
-        let digits: Option<Vec<u8>> =
-            self.frame.chars().map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok())).collect();
-        digits?.chunks(2).map(|pair| if let [high, low] = pair { Some(high << 4 | low) } else { None }).collect()
+        let digits: Option<Vec<u8>> = self
+            .frame
+            .chars()
+            .map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok()))
+            .collect();
+        digits?
+            .chunks(2)
+            .map(|pair| if let [high, low] = pair { Some(high << 4 | low) } else { None })
+            .collect()
     }
 }
 

@@ -26,7 +26,8 @@ pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     let out = args.out.clone().unwrap_or_else(|| beside(&args.record));
     let path = args.record.display();
     let wrong = |error: &dyn std::fmt::Display| Failure::failed(format!("{path}: {error}"));
-    let told = read(File::open(&args.record).map_err(|error| wrong(&error))?).map_err(|error| wrong(&error))?;
+    let told =
+        read(File::open(&args.record).map_err(|error| wrong(&error))?).map_err(|error| wrong(&error))?;
     if is_same(&args.record, &out) {
         return Err(Failure::usage(format!("{path} would be overwritten: choose another file with --out")));
     }
@@ -106,7 +107,8 @@ fn poses(told: &Told, reconstruction: &Reconstruction) -> Vec<Vec<Pose>> {
         let truths = &told.ticks[auv];
         let pose = |tick: shoal_auv::offline::Tick| {
             let index = truths.binary_search_by_key(&tick.tick, |truth| truth.tick).ok()?;
-            let [alone, offline] = [&tick.alone, &tick.state].map(|state| Enclosure::at_stamp(state, stamp_s));
+            let [alone, offline] =
+                [&tick.alone, &tick.state].map(|state| Enclosure::at_stamp(state, stamp_s));
             Some(Pose { truth: truths[index], alone, offline })
         };
         trajectory.ticks().filter_map(pose).collect()
@@ -154,7 +156,9 @@ fn outcome(
     let named = told.header.auvs.iter().zip(poses);
     let each = named.clone().map(|(auv, poses)| Line::of(&auv.name, &[poses])).collect();
     let mut groups = Vec::new();
-    for (group, auv) in told.header.auvs.iter().map(|auv| (auv.group, auv)).collect::<std::collections::BTreeMap<_, _>>() {
+    for (group, auv) in
+        told.header.auvs.iter().map(|auv| (auv.group, auv)).collect::<std::collections::BTreeMap<_, _>>()
+    {
         let members: Vec<&[Pose]> =
             named.clone().filter(|(member, _)| member.group == group).map(|(_, poses)| &**poses).collect();
         groups.push(Line::of(&auv.group_name, &members));

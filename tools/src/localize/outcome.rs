@@ -41,7 +41,8 @@ impl Enclosure {
     fn holds(&self, truth: &ToldTick) -> bool {
         let within = |[lower, upper]: [f64; 2], value: f64| lower <= value && value <= upper;
         let offset_s = (truth.at.ns() - truth.local.ns()) as f64 * 1e-9;
-        (0..3).all(|axis| within(self.position_m[axis], truth.position_m[axis])) && within(self.clock_offset_s, offset_s)
+        (0..3).all(|axis| within(self.position_m[axis], truth.position_m[axis]))
+            && within(self.clock_offset_s, offset_s)
     }
 
     fn widths(&self) -> [f64; 2] {
@@ -101,7 +102,9 @@ impl Line {
             name: name.to_owned(),
             auvs: auvs.len(),
             poses: poses().count(),
-            contained: poses().filter(|pose| pose.alone.holds(&pose.truth) && pose.offline.holds(&pose.truth)).count(),
+            contained: poses()
+                .filter(|pose| pose.alone.holds(&pose.truth) && pose.offline.holds(&pose.truth))
+                .count(),
             contained_online: poses().filter(|pose| held(pose.truth.online, &pose.truth)).count(),
             position_width_m: over(0),
             clock_width_s: over(1),
@@ -188,15 +191,28 @@ impl Outcome {
             self.rounds,
             self.solve_s,
             self.threads,
-            if self.restarts > 0 { format!(", begun again {} times without rejected pings", self.restarts) } else { String::new() },
+            if self.restarts > 0 {
+                format!(", begun again {} times without rejected pings", self.restarts)
+            } else {
+                String::new()
+            },
         );
         let lines = if self.each.len() <= LINES_MAX { &self.each } else { &self.groups };
         let name_width = lines.iter().map(|line| line.name.chars().count()).max().unwrap_or(0).max(4);
         for (title, decimals, scale, of) in [
-            ("width of the position box (m)", 3, 1.0, (|line| &line.position_width_m) as fn(&Line) -> &MedianAndEnd),
+            (
+                "width of the position box (m)",
+                3,
+                1.0,
+                (|line| &line.position_width_m) as fn(&Line) -> &MedianAndEnd,
+            ),
             ("width of the clock interval (ms)", 4, 1e3, |line| &line.clock_width_s),
         ] {
-            let _ = writeln!(text, "\n{title}\n{:name_width$}  {:^32}  {:^32}", "", "median over time", "at the end");
+            let _ = writeln!(
+                text,
+                "\n{title}\n{:name_width$}  {:^32}  {:^32}",
+                "", "median over time", "at the end"
+            );
             let _ = write!(text, "{:name_width$}", "");
             for _ in 0..2 {
                 let _ = write!(text, "  {:>10} {:>10} {:>10}", "no pings", "online", "offline");
@@ -205,8 +221,11 @@ impl Outcome {
             for line in lines.iter().chain((lines.len() > 1).then_some(&self.all)) {
                 let _ = write!(text, "{:name_width$}", line.name);
                 for Widths { none, online, offline } in [of(line).median, of(line).end] {
-                    let number = |width: Option<f64>| width.map_or("-".to_owned(), |width| format!("{:.decimals$}", width * scale));
-                    let _ = write!(text, "  {:>10} {:>10} {:>10}", number(none), number(online), number(offline));
+                    let number = |width: Option<f64>| {
+                        width.map_or("-".to_owned(), |width| format!("{:.decimals$}", width * scale))
+                    };
+                    let _ =
+                        write!(text, "  {:>10} {:>10} {:>10}", number(none), number(online), number(offline));
                 }
                 text.push('\n');
             }

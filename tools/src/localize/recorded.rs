@@ -96,7 +96,7 @@ fn tick(row: &TruthRow) -> ToldTick {
 }
 
 fn booked(row: &ReportRow) -> impl Iterator<Item = Booked> {
-    row.booked.iter().filter_map(|booked| {
-        Some(Booked { at: booked.at_local_ns, frame: Frame::new(&booked.bytes()?)? })
-    })
+    row.booked
+        .iter()
+        .filter_map(|booked| Some(Booked { at: booked.at_local_ns, frame: Frame::new(&booked.bytes()?)? }))
 }

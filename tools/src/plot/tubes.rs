@@ -14,11 +14,8 @@ const GATES_MAX: usize = 2_000;
 const PANEL_PX: f64 = 330.0;
 
 /// How tubes are drawn, the widest first.
-const TUBES: [(&str, Colour); 3] = [
-    ("(1) no pings", Colour::Pale),
-    ("(2) online", Colour::Sky),
-    ("(3) offline", Colour::Blue),
-];
+const TUBES: [(&str, Colour); 3] =
+    [("(1) no pings", Colour::Pale), ("(2) online", Colour::Sky), ("(3) offline", Colour::Blue)];
 
 /// What is kept of one AUV.
 pub struct Tubes {
@@ -63,7 +60,8 @@ impl Plot for Tubes {
                 self.online.push((*tick, gate(*clock_offset_s, position_m[0])));
             }
             Row::Offline(row) if row.auv == self.auv => {
-                let OfflineRow { alone_position_m, alone_clock_offset_s, position_m, clock_offset_s, .. } = row;
+                let OfflineRow { alone_position_m, alone_clock_offset_s, position_m, clock_offset_s, .. } =
+                    row;
                 let alone = gate(*alone_clock_offset_s, alone_position_m[0]);
                 self.offline.push((row.tick, [alone, gate(*clock_offset_s, position_m[0])]));
             }
@@ -73,7 +71,11 @@ impl Plot for Tubes {
 
     fn figure(self: Box<Self>, header: &RecordHeader) -> Result<Figure, String> {
         let Some(told) = header.auvs.get(self.auv.0 as usize) else {
-            return Err(format!("there is no AUV {}: the record has {}, counted from 0", self.auv, header.auvs.len()));
+            return Err(format!(
+                "there is no AUV {}: the record has {}, counted from 0",
+                self.auv,
+                header.auvs.len()
+            ));
         };
         if self.offline.is_empty() {
             return Err(format!(
@@ -92,10 +94,12 @@ impl Plot for Tubes {
         }
         let panels = [false, true].into_iter().flat_map(|is_relative| {
             let shown = &shown;
-            [("true − local time (ms)", 1e3), ("x (m)", 1.0)].into_iter().enumerate().map(move |(which, (label, scale))| {
-                let label = if is_relative { format!("{label}, minus truth") } else { label.to_owned() };
-                panel(shown, which, scale, is_relative, label)
-            })
+            [("true − local time (ms)", 1e3), ("x (m)", 1.0)].into_iter().enumerate().map(
+                move |(which, (label, scale))| {
+                    let label = if is_relative { format!("{label}, minus truth") } else { label.to_owned() };
+                    panel(shown, which, scale, is_relative, label)
+                },
+            )
         });
         let mut legend: Vec<Entry> =
             TUBES.iter().map(|(name, colour)| Entry::new(Sample::Area(*colour), *name)).collect();
@@ -104,7 +108,10 @@ impl Plot for Tubes {
             legend.push(Entry::remark(format!("1 in {every} ticks drawn")));
         }
         Ok(Figure {
-            title: format!("What is known of {} (AUV {}): without pings, online, offline", told.name, self.auv),
+            title: format!(
+                "What is known of {} (AUV {}): without pings, online, offline",
+                told.name, self.auv
+            ),
             subtitle: String::new(),
             panels: panels.collect(),
             legend,
@@ -139,5 +146,10 @@ fn panel(shown: &[(&Truth, [Gate; 3])], which: usize, scale: f64, is_relative: b
     let truth = shown.iter().map(|(truth, _)| [truth.at_s, (truth.values[which] - origin(truth)) * scale]);
     layers.push(Layer::Line { colour: Colour::Black, points: truth.collect() });
     let last_s = shown.last().map_or(0.0, |(truth, _)| truth.at_s);
-    Panel { width_px: PANEL_PX, x: Axis::from_zero("true time (s)", last_s), y: Axis::around(label, least, greatest), layers }
+    Panel {
+        width_px: PANEL_PX,
+        x: Axis::from_zero("true time (s)", last_s),
+        y: Axis::around(label, least, greatest),
+        layers,
+    }
 }

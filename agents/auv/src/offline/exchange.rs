@@ -10,7 +10,7 @@ use shoal_interval::{Interval, IntervalBox};
 
 use super::{Recorded, Trajectory};
 use crate::bounds::{interval, interval_box};
-use crate::state::{Moment, Sound};
+use crate::state::Sound;
 use crate::tube_estimator::{local_s, seconds};
 
 /// A ping that was heard.
@@ -46,8 +46,10 @@ pub struct Event {
     pub auv: usize,
     /// The moment of its trajectory to which the end belongs.
     pub stamp: LocalTime,
-    /// The end itself.
-    pub moment: Moment,
+    /// Its stamp in seconds of local time, with every tolerance.
+    pub stamp_s: Interval,
+    /// Local seconds by which it may differ from that moment.
+    pub apart_s: f64,
 }
 
 /// A position at a true time.
@@ -101,8 +103,7 @@ impl Event {
         // A stamp may precede the birth by its own error.
         let within_life = stamp.max(born.birth);
         let apart_s = seconds(within_life - stamp) + error_s + 2.0 * stamp_s;
-        let stamp_s = local_s(stamp, stamp_s).inflate(error_s);
-        Self { auv, stamp: within_life, moment: Moment { stamp_s, apart_s } }
+        Self { auv, stamp: within_life, stamp_s: local_s(stamp, stamp_s).inflate(error_s), apart_s }
     }
 }
 

@@ -182,17 +182,8 @@ impl Trajectory {
     }
 
     fn place_of(&self, state: &State, event: &Event) -> Place {
-        let apart_s = event.moment.apart_s;
-        Place {
-            position_m: state.position_m + self.motion.anywhere_within(apart_s),
-            time_s: state.true_time_s(event.moment.stamp_s) + self.either_way(apart_s),
-        }
-    }
-
-    /// Change of true minus local time within `apart_s` local seconds, forward or backward.
-    fn either_way(&self, apart_s: f64) -> Interval {
-        let gain = self.motion.offset_gain(apart_s);
-        gain.hull(-gain)
+        let there = Way::within(&self.motion, event.apart_s).ahead(state);
+        Place { position_m: there.position_m, time_s: there.true_time_s(event.stamp_s) }
     }
 
     /// The state contracted by one end of a ping; None when nothing is left.
@@ -201,13 +192,9 @@ impl Trajectory {
             End::Emission => exchange.emission.as_ref()?,
             End::Reception => &exchange.reception,
         };
-        let place = exchange.contract(end, &self.place_of(state, event))?;
-        let apart_s = event.moment.apart_s;
-        let known = State {
-            offset_s: place.time_s - event.moment.stamp_s + self.either_way(apart_s),
-            position_m: place.position_m + self.motion.anywhere_within(apart_s),
-        };
-        let state = state.intersection(&known);
+        let Place { position_m, time_s } = exchange.contract(end, &self.place_of(state, event))?;
+        let there = State { offset_s: time_s - event.stamp_s, position_m };
+        let state = state.intersection(&Way::within(&self.motion, event.apart_s).back(&there));
         (!state.is_empty()).then_some(state)
     }
 
