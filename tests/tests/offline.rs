@@ -108,6 +108,9 @@ fn no_trajectory_loses_the_truth_or_is_wider_than_online() {
         ("two-circles", 3.0),
         ("six-circles", 30.0),
         ("six-auvs-3d", 30.0),
+        ("sea-trial", 10.0),
+        ("thermocline", 30.0),
+        ("crowded-band", 10.0),
         ("swarm-3", 20.0),
         ("swarm-300", 1.0),
         ("swarm-1000", 1.0),
@@ -124,4 +127,44 @@ fn no_trajectory_loses_the_truth_or_is_wider_than_online() {
             );
         }
     }
+}
+
+#[test]
+fn the_order_of_sweeps_does_not_matter() {
+    let run = run(&short("six-circles", 25.0, Noise::Uniform));
+    let backward = |trajectories: &mut [Trajectory], sweep: &(dyn Fn(&mut Trajectory) + Sync)| {
+        trajectories.iter_mut().rev().for_each(sweep);
+    };
+    let side_by_side = |trajectories: &mut [Trajectory], sweep: &(dyn Fn(&mut Trajectory) + Sync)| {
+        std::thread::scope(|scope| {
+            trajectories.iter_mut().for_each(|trajectory| drop(scope.spawn(move || sweep(trajectory))));
+        });
+    };
+    let states = |reconstruction: &Reconstruction| {
+        let ticks = reconstruction.trajectories().iter().flat_map(Trajectory::ticks);
+        format!("{} {:?}", reconstruction.rounds(), ticks.collect::<Vec<_>>())
+    };
+    let expected = states(&solved(&run));
+    let mut other = Reconstruction::new(&run.recorded);
+    while other.round(&backward) {}
+    assert!(states(&other) == expected);
+    let mut other = Reconstruction::new(&run.recorded);
+    while other.round(&side_by_side) {}
+    assert!(states(&other) == expected);
+}
+
+/// Echoes are no part of the bounds: the truth may be lost where nothing contradicts them, but it all comes to an end.
+#[test]
+fn echoes_are_dropped_where_they_leave_nothing() {
+    let run = run(&short("surface-bounce", 200.0, Noise::Uniform));
+    let reconstruction = solved(&run);
+    println!(
+        "{:?} pings, {} dropped, {} restarts",
+        reconstruction.pings(),
+        reconstruction.dropped(),
+        reconstruction.restarts()
+    );
+    assert!(reconstruction.pings().0 > 100);
+    let ticks = reconstruction.trajectories().iter().flat_map(Trajectory::ticks);
+    assert!(ticks.into_iter().all(|tick| !tick.state.is_empty()));
 }
