@@ -18,6 +18,7 @@
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
 //! | `rings.rs` | pings as rings around the present position |
+//! | `together.rs` | all rings at once |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -36,6 +37,7 @@ pub mod odometry;
 pub mod rings;
 mod sabotage;
 pub mod state;
+pub mod together;
 pub mod tube_estimator;
 
 pub use auv::Auv;

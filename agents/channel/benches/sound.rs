@@ -177,6 +177,9 @@ impl Mind {
                 emptied: None,
                 neighbours: 0,
                 contractions: 0,
+                rejected: 0,
+                components: 1,
+                gaussian: None,
             },
             next_ping: pings.then_some((first, period_ns)),
         }

@@ -70,8 +70,8 @@ pub struct Segment {
     pub acceleration_m_s2: Vec3,
     water_velocity_m_s: Vec3,
     attitude: Attitude,
-    /// Attitude and velocity through the water at the next knot, unless a setpoint takes effect before.
-    planned: (SimTime, Attitude, Vec3),
+    /// The next knot, unless a setpoint takes effect before.
+    planned_end: SimTime,
 }
 
 impl Segment {
@@ -82,7 +82,7 @@ impl Segment {
 
     /// Seconds from the start to the next knot, whether or not a setpoint ends the stretch before.
     pub fn planned_length_s(&self) -> f64 {
-        self.elapsed_s(self.planned.0)
+        self.elapsed_s(self.planned_end)
     }
 
     fn elapsed_s(&self, t: SimTime) -> f64 {
@@ -125,6 +125,8 @@ pub struct Body {
     segments: VecDeque<Segment>,
     /// Number of the knot at or before the start of the first of them.
     first_knot: i64,
+    /// Attitude and velocity through the water at the end that is planned for the last one.
+    planned: (Attitude, Vec3),
     shift: Option<SimTime>,
 }
 
@@ -150,6 +152,7 @@ impl Body {
             setpoints: VecDeque::new(),
             segments: VecDeque::new(),
             first_knot: 0,
+            planned: (attitude, Vec3::zeros()),
             shift: None,
         };
         body.begin(SimTime::ZERO, position_m, attitude, attitude.velocity_m_s());
@@ -196,8 +199,8 @@ impl Body {
                 self.shift = None;
                 position_m.x += 1.0;
             }
-            let (planned_end, attitude, velocity_m_s) = last.planned;
-            if last.end == planned_end {
+            if last.end == last.planned_end {
+                let (attitude, velocity_m_s) = self.planned;
                 self.begin(last.end, position_m, attitude, velocity_m_s);
             } else {
                 let pose = pose_at(&last, last.end);
@@ -283,8 +286,9 @@ impl Body {
             acceleration_m_s2,
             water_velocity_m_s,
             attitude,
-            planned: (planned_end, next, next_velocity_m_s),
+            planned_end,
         });
+        self.planned = (next, next_velocity_m_s);
     }
 
     /// The attitude that a desired velocity asks for, within what the kind can hold.

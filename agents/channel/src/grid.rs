@@ -52,9 +52,9 @@ impl Grid {
         self.cell_of[place]
     }
 
-    /// Numbers of all places within `radius_m` of `centre_m`, and of none that is farther by more than rounding, in no order that
-    /// means anything.
-    pub fn near(&self, centre_m: Vec3, radius_m: f64) -> impl Iterator<Item = usize> {
+    /// All places within `radius_m` of `centre_m`, and none that is farther by more than rounding, with their numbers, in no order
+    /// that means anything.
+    pub fn near(&self, centre_m: Vec3, radius_m: f64) -> impl Iterator<Item = (usize, Vec3)> {
         let range = |axis: usize| {
             let cell = |coordinate: f64| (coordinate - self.least_m[axis]) / self.cell_m;
             let last = self.cells[axis] as f64 - 1.0;
@@ -77,8 +77,8 @@ impl Grid {
                 if zs.is_empty() { 0..0 } else { self.starts[from] as usize..self.starts[to] as usize }
             })
         })
-        .filter(move |&at| (self.members_m[at] - centre_m).norm_squared() <= radius_m2)
-        .map(|at| self.members[at] as usize)
+        .map(|at| (self.members[at] as usize, self.members_m[at]))
+        .filter(move |(_, place_m)| (place_m - centre_m).norm_squared() <= radius_m2)
     }
 
     /// Counting sort: cells along z are neighbours in memory, so that a query reads whole rows.
@@ -136,7 +136,8 @@ mod tests {
             grid.sort(&places_m, 100.0);
             for (index, &centre_m) in places_m.iter().enumerate().step_by(37) {
                 let centre_m = centre_m + Vec3::new(index as f64 * 0.1, -3.0, 7.0);
-                let found: std::collections::BTreeSet<usize> = grid.near(centre_m, 100.0).collect();
+                let found: std::collections::BTreeSet<usize> =
+                    grid.near(centre_m, 100.0).map(|(number, _)| number).collect();
                 for (number, place) in places_m.iter().enumerate() {
                     let near = (place - centre_m).norm() <= 100.0;
                     assert!(!near || found.contains(&number), "{number} is missing");

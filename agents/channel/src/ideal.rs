@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason};
 
@@ -13,6 +14,7 @@ use crate::vehicle::Vehicle;
 pub struct Ideal {
     sound_speed_m_s: f64,
     farthest_m: f64,
+    fastest_m_s: f64,
     flights: Vec<Flight>,
     due: Vec<Flight>,
 }
@@ -23,6 +25,7 @@ impl Ideal {
         Self {
             sound_speed_m_s,
             farthest_m: reach_m(farthest_m, fastest_m_s, sound_speed_m_s),
+            fastest_m_s,
             flights: Vec::new(),
             due: Vec::new(),
         }
@@ -44,18 +47,25 @@ impl Ideal {
         moved_m: f64,
     ) -> u32 {
         let sound_speed_m_s = self.sound_speed_m_s;
-        let mut within = 0;
-        for index in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
-            let receiver = &vehicles[index];
-            if receiver.born.auv == wavefront.from {
+        let before = self.flights.len();
+        for (index, place_m) in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
+            let to = AuvId(index as u32);
+            if to == wavefront.from {
                 continue;
             }
+            // Where it was is enough for most, and spares a look at the receiver.
+            let farthest_m = (place_m - wavefront.origin_m).norm() + moved_m;
+            if farthest_m < wavefront.range_m {
+                let nearest_m = (farthest_m - 2.0 * moved_m).max(0.0);
+                self.flights.push(wavefront.flight(to, nearest_m, self.fastest_m_s, sound_speed_m_s));
+                continue;
+            }
+            let receiver = &vehicles[index];
             let distance_m = (receiver.body.position_at(wavefront.emitted) - wavefront.origin_m).norm();
             let speed_m_s = receiver.ground_speed_m_s;
-            let flight = wavefront.towards(receiver.born.auv, distance_m, speed_m_s, sound_speed_m_s);
-            within += u32::from(flight.is_some());
-            self.flights.extend(flight);
+            self.flights.extend(wavefront.towards(to, distance_m, speed_m_s, sound_speed_m_s));
         }
+        let within = (self.flights.len() - before) as u32;
         vehicles.len() as u32 - 1 - within
     }
 

@@ -190,7 +190,7 @@ impl Sea {
             ear.emit(wavefront.emitted, wavefront.emitted + wavefront.packet_ns);
         }
         let mut within = 0;
-        for index in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
+        for (index, _) in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
             let receiver = &vehicles[index];
             if receiver.born.auv == wavefront.from {
                 continue;

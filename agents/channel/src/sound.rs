@@ -91,9 +91,20 @@ impl Wavefront {
         if distance_m > reach_m(self.range_m, speed_m_s, sound_speed_m_s) {
             return None;
         }
+        Some(self.flight(to, distance_m, speed_m_s, sound_speed_m_s))
+    }
+
+    /// The flight to a receiver in range that is now no nearer than `distance_m` and moves at most at `speed_m_s`.
+    pub fn flight(
+        self: &Arc<Self>,
+        to: AuvId,
+        distance_m: f64,
+        speed_m_s: f64,
+        sound_speed_m_s: f64,
+    ) -> Flight {
         let travel_s = distance_m / (sound_speed_m_s + speed_m_s);
         let earliest = self.emitted + (travel_s * 1e9) as i64 + -1;
-        Some(Flight { wavefront: Arc::clone(self), to, earliest: earliest.max(self.emitted) })
+        Flight { wavefront: Arc::clone(self), to, earliest: earliest.max(self.emitted) }
     }
 }
 
