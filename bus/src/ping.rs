@@ -139,7 +139,9 @@ pub enum FrameError {
     #[error("a ping has {FRAME_BYTES} bytes, this frame has {0}")]
     Length(usize),
     /// It is something else, or comes from another version.
-    #[error("the frame is of kind {0}, which is not what was asked for: {INTERVALS} has intervals, {GAUSSIAN} a Gaussian")]
+    #[error(
+        "the frame is of kind {0}, which is not what was asked for: {INTERVALS} has intervals, {GAUSSIAN} a Gaussian"
+    )]
     Kind(u8),
 }
 

@@ -22,7 +22,7 @@ use super::{
     EXPONENTS, FRAME_BYTES, Frame, FrameError, GAUSSIAN, TIME_UNIT_EXPONENT, binary_exponent, header, kind,
     power_of_two, sender, signed,
 };
-use crate::message::AuvId;
+use crate::message::{AuvId, Bounds, BoundsBox};
 
 /// 2^(1/8), 2^(2/8), ... to the nearest double: eight steps to an octave.
 const EIGHTHS: [f64; 8] = [
@@ -104,6 +104,14 @@ impl GaussianPing {
         bytes.extend(covariance.correlations.to_le_bytes());
         bytes.extend(velocity.means.map(|mean| mean as i8 as u8));
         Frame::new(&bytes).ok_or(FrameError::Length(bytes.len()))
+    }
+
+    /// Three standard deviations to either side of the mean position, in metres.
+    pub fn position_box_m(&self) -> BoundsBox {
+        std::array::from_fn(|axis| {
+            let reach_m = 3.0 * self.covariance[ROWS[axis]].max(0.0).sqrt();
+            Bounds::new(self.position_m[axis] - reach_m, self.position_m[axis] + reach_m)
+        })
     }
 
     /// Reads a frame. Any 31 bytes of the right kind have finite means and variances; correlations that no Gaussian has may
@@ -197,8 +205,7 @@ impl Rounded {
             covariance[ROWS[axis]] = deviation * deviation;
         }
         for (place, (first, second)) in pairs().enumerate() {
-            let scale =
-                deviation(first, self.deviations[first]) * deviation(second, self.deviations[second]);
+            let scale = deviation(first, self.deviations[first]) * deviation(second, self.deviations[second]);
             let steps = f64::from(self.correlations >> (5 * place) & 31) - STEPS;
             covariance[ROWS[first] + second - first] = scale * (steps / STEPS).min(1.0);
         }

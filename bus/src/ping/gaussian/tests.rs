@@ -19,9 +19,8 @@ fn ping(covariance: [f64; 10]) -> GaussianPing {
 
 /// Whether a symmetric matrix, given by its upper triangle, has no negative eigenvalue: all pivots of its elimination are positive.
 fn is_positive(triangle: &[f64; 10]) -> bool {
-    let mut of: [[f64; 4]; 4] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| triangle[ROWS[i.min(j)] + i.max(j) - i.min(j)])
-    });
+    let mut of: [[f64; 4]; 4] =
+        std::array::from_fn(|i| std::array::from_fn(|j| triangle[ROWS[i.min(j)] + i.max(j) - i.min(j)]));
     for pivot in 0..4 {
         if of[pivot][pivot] <= 0.0 {
             return false;
