@@ -8,6 +8,8 @@
 //! | `auv.rs` | the mind: estimator, controller, modem |
 //! | `estimator.rs` | what an estimator is |
 //! | `tube_estimator.rs` | the state tube, online |
+//! | `ekf.rs`, `ekf/` | an extended Kalman filter, to compare with |
+//! | `dead_reckoning.rs` | log and clock alone, to compare with |
 //! | `state.rs` | position and clock as one set, contracted by measurements |
 //! | `motion.rs` | how far the body can have moved |
 //! | `current.rs` | the current, as a Doppler velocity log sees it |
@@ -25,6 +27,8 @@ mod auv;
 mod bounds;
 pub mod controller;
 pub mod current;
+pub mod dead_reckoning;
+pub mod ekf;
 pub mod estimator;
 mod history;
 pub mod medium_access;

@@ -288,6 +288,7 @@ impl Estimator for TubeEstimator {
                 .motion
                 .over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s), &current_m_s),
             current_m_s,
+            gaussian: None,
         }
     }
 }

@@ -27,8 +27,10 @@
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
+//! | `accuracy.rs` | how good estimates are |
 //! | `tally.rs` | what it all amounts to |
 
+mod accuracy;
 pub mod acoustics;
 pub mod birth;
 pub mod body;
