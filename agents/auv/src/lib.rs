@@ -15,6 +15,7 @@
 //! | `current.rs` | the current, as a Doppler velocity log sees it |
 //! | `odometry.rs` | what it did from any remembered moment until now |
 //! | `history.rs` | the tube that is remembered |
+//! | `offline/` | all trajectories of a run at once, from its record |
 //! | `controller/` | hold, circle, waypoints, reynolds |
 //! | `neighbours.rs` | who is around |
 //! | `medium_access/` | when to ping |
@@ -38,6 +39,7 @@ pub mod neighbours;
 #[cfg(test)]
 mod newborn;
 pub mod odometry;
+pub mod offline;
 pub mod rings;
 mod sabotage;
 pub mod state;

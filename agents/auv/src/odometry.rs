@@ -106,6 +106,11 @@ impl Odometry {
         }
     }
 
+    /// The leg that ended last.
+    pub fn last(&self) -> Option<&Leg> {
+        self.legs.back()
+    }
+
     /// The state at `stamp` as it was known then, and the way from there to the last tick. None when `stamp` is not
     /// remembered: beyond the horizon, before birth, or after the last tick.
     ///

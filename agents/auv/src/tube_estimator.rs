@@ -73,11 +73,20 @@ impl TubeEstimator {
         }
     }
 
+    /// The leg that ended at the last tick, once there was one.
+    pub(crate) fn last_leg(&self) -> Option<&Leg> {
+        self.odometry.last()
+    }
+
+    /// What is known of the velocity from the last tick until `length_s` local seconds later.
+    pub(crate) fn stretch_ahead(&self, length_s: f64) -> Stretch {
+        let current_m_s = self.current.within(self.motion.true_s(length_s));
+        Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s }
+    }
+
     /// Exact local time of something stamped `stamp`, in seconds.
     fn local_s(&self, stamp: LocalTime) -> Interval {
-        // Seconds as a double are off by at most half an ulp; one whole ulp is added.
-        let seconds = stamp.as_s();
-        Interval::centred(seconds, self.stamp_s + seconds.abs() * f64::EPSILON)
+        local_s(stamp, self.stamp_s)
     }
 
     /// The velocity at the tick: what the log says, what was possible, or (contradictory) the log alone.
@@ -277,17 +286,15 @@ impl Estimator for TubeEstimator {
 
     fn predict(&self, at: LocalTime) -> Prediction {
         let length_s = seconds(at - self.now).max(0.0);
-        let current_m_s = self.current.within(self.motion.true_s(length_s));
-        let stretch =
-            Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s };
+        let stretch = self.stretch_ahead(length_s);
         let state = self.history.last().moved(&self.motion.over(&stretch, 0.0, length_s));
         Prediction {
             time_s: state.true_time_s(self.local_s(at)),
             position_m: state.position_m,
             velocity_m_s: self
                 .motion
-                .over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s), &current_m_s),
-            current_m_s,
+                .over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s), &stretch.current_m_s),
+            current_m_s: stretch.current_m_s,
             gaussian: None,
         }
     }
@@ -309,6 +316,13 @@ fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> 
     let (sin_pitch, cos_pitch) = measured(pitch_rad).sin_cos();
     let speed = measured(speed_m_s);
     IntervalBox::from([speed * cos_pitch * cos_heading, speed * cos_pitch * sin_heading, speed * sin_pitch])
+}
+
+/// Exact local time of something stamped `stamp`, in seconds, when a stamp is off by at most `stamp_s` seconds.
+pub(crate) fn local_s(stamp: LocalTime, stamp_s: f64) -> Interval {
+    // Seconds as a double are off by at most half an ulp; one whole ulp is added.
+    let seconds = stamp.as_s();
+    Interval::centred(seconds, stamp_s + seconds.abs() * f64::EPSILON)
 }
 
 /// Seconds of a difference of stamps; exact below 104 days, where nanoseconds are whole doubles, but for the last bit.
