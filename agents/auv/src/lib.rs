@@ -18,9 +18,11 @@
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
 //! | `rings.rs` | pings as rings around the present position |
+//! | `beacons/` | one vehicle and a few beacons, from the files of a real mission |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
+pub mod beacons;
 mod bounds;
 pub mod controller;
 pub mod current;
