@@ -22,9 +22,11 @@
 //! | `modem.rs` | what to say |
 //! | `rings.rs` | pings as rings around the present position |
 //! | `together.rs` | all rings at once |
+//! | `beacons/` | one vehicle and a few beacons, from the files of a real mission |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
+pub mod beacons;
 mod bounds;
 pub mod controller;
 pub mod current;
