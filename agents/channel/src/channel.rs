@@ -308,7 +308,7 @@ impl Channel {
         let mut told = std::mem::take(&mut self.told);
         self.medium.arrive(to, &mut self.vehicles, &mut told);
         told.sort_by_key(|told| (told.at, told.to, told.wavefront.from, told.wavefront.sequence));
-        for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
+        for Told { at, to, wavefront, mut fate, stamp, incidence } in told.drain(..) {
             let receiver = &mut self.vehicles[to.0 as usize];
             let (from, sequence) = (wavefront.from, wavefront.sequence);
             match fate {
@@ -319,7 +319,7 @@ impl Channel {
                     if outlier || wavefront.is_false {
                         receiver.expose(at);
                     }
-                    receiver.hear(at, stamp, from.0, &wavefront.frame);
+                    receiver.hear(at, stamp, from, &wavefront.frame, incidence.as_ref());
                 }
                 _ => {}
             }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason};
 
+use crate::bearing::Incidence;
 use crate::grid::Grid;
 use crate::sound::{Flight, Told, Wavefront, reach_m};
 use crate::vehicle::Vehicle;
@@ -79,7 +80,13 @@ impl Ideal {
                     outlier: false,
                 }
             };
-            told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None });
+            let pose = receiver.body.at(arrival.at);
+            let incidence = Incidence {
+                towards: wavefront.origin_m - pose.position_m,
+                heading_rad: pose.attitude.heading_rad,
+            };
+            let incidence = Some(incidence);
+            told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None, incidence });
             false
         });
     }

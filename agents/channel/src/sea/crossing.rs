@@ -4,8 +4,9 @@ use shoal_bus::time::SimTime;
 use shoal_bus::traffic::SoundPath;
 
 use crate::acoustics::doppler::doppler_factor;
-use crate::acoustics::ray::Ray;
-use crate::body::{Body, Vec3};
+use crate::acoustics::ray::{Direction, Ray};
+use crate::bearing::Incidence;
+use crate::body::{Body, Pose, Vec3};
 use crate::sound::Wavefront;
 
 use super::SeaWater;
@@ -44,6 +45,8 @@ pub struct Meeting {
     pub range_m: f64,
     /// Factor of frequencies.
     pub doppler: f64,
+    /// How sound comes in.
+    pub incidence: Incidence,
 }
 
 impl Crossing {
@@ -80,6 +83,7 @@ impl Crossing {
                 start: wavefront.emitted + travel_ns.max(elapsed_ns).ceil() as i64,
                 range_m: (place_m - wavefront.origin_m).norm(),
                 doppler: self.doppler(wavefront, place_m, receiver.ground_velocity_at(at), water),
+                incidence: self.incidence(wavefront, &receiver.at(at)),
             });
         }
         None
@@ -101,6 +105,16 @@ impl Crossing {
             }
         }
         self.ray.travel_s
+    }
+
+    /// Back along the ray, which stays in the vertical plane of both ends.
+    fn incidence(&self, wavefront: &Wavefront, receiver: &Pose) -> Incidence {
+        let back = (wavefront.origin_m - receiver.position_m).xy().try_normalize(0.0).unwrap_or_default();
+        let Direction { cos, sin } = self.ray.arrival;
+        Incidence {
+            towards: Vec3::new(cos * back.x, cos * back.y, -sin),
+            heading_rad: receiver.attitude.heading_rad,
+        }
     }
 
     /// Both motions along the ray, at either end.
