@@ -17,6 +17,7 @@
 //! | `neighbours.rs` | who is around |
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
+//! | `relative.rs` | where the neighbours are, seen from here |
 //! | `rings.rs` | pings as rings around the present position |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
@@ -33,6 +34,7 @@ pub mod neighbours;
 #[cfg(test)]
 mod newborn;
 pub mod odometry;
+pub mod relative;
 pub mod rings;
 mod sabotage;
 pub mod state;
