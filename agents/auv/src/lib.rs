@@ -19,6 +19,7 @@
 //! | `modem.rs` | what to say |
 //! | `relative.rs` | where the neighbours are, seen from here |
 //! | `rings.rs` | pings as rings around the present position |
+//! | `together.rs` | all rings at once |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
@@ -38,6 +39,7 @@ pub mod relative;
 pub mod rings;
 mod sabotage;
 pub mod state;
+pub mod together;
 pub mod tube_estimator;
 
 pub use auv::Auv;

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use shoal_bus::message::{Acted, AuvId, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
+use shoal_scenario::LISTEN_MAX_NS;
 
 use crate::bearing::{BearingArray, Incidence};
 use crate::birth::Newborn;
@@ -15,8 +16,6 @@ use crate::sensors::Sensors;
 
 /// So many pings beyond twice its schedule may wait to be emitted; more is an AUV out of its mind.
 const PINGS_OUTSTANDING: usize = 64;
-/// A modem listens at most so long before it emits, in nanoseconds.
-pub const LISTEN_MAX_NS: i64 = 10 * 1_000_000_000;
 /// A ping may be booked at most so much earlier than a schedule needs, in local nanoseconds.
 const BOOKING_SLACK_NS: i64 = 60 * 1_000_000_000;
 
@@ -46,6 +45,8 @@ pub struct Vehicle {
     next_tick: u64,
     next_tick_at: SimTime,
     last_tick_at: SimTime,
+    /// The truth at the moment between ticks, once that moment is over.
+    between: Option<(Vec3, f64)>,
     heard: Vec<HeardPing>,
     held: Vec<(LocalTime, SimTime)>,
     planned: VecDeque<Planned>,
@@ -86,10 +87,10 @@ pub struct Tick {
     pub at: SimTime,
     /// The truth at it.
     pub pose: Pose,
-    /// A moment between the tick before (or birth) and this one.
-    pub between: SimTime,
-    /// The true position at that moment, in metres.
+    /// The true position at a moment between the tick before (or birth) and this one, in metres.
     pub between_position_m: Vec3,
+    /// True time minus local time at that moment, in seconds.
+    pub between_offset_s: f64,
 }
 
 impl Vehicle {
@@ -114,6 +115,7 @@ impl Vehicle {
             next_tick: 0,
             next_tick_at,
             last_tick_at: SimTime::ZERO,
+            between: None,
             heard: Vec::new(),
             held: Vec::new(),
             planned: VecDeque::new(),
@@ -140,6 +142,11 @@ impl Vehicle {
     /// Whether what it states at `at` may rest on something false that it heard.
     pub fn is_exposed_at(&self, at: SimTime) -> bool {
         self.exposed_since.is_some_and(|since| since <= at)
+    }
+
+    /// Whether it measures from where pings come.
+    pub fn has_bearings(&self) -> bool {
+        self.bearings.is_some()
     }
 
     /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.
@@ -216,16 +223,16 @@ impl Vehicle {
         let stamp = wake.first_tick + self.next_tick as i64 * wake.period_ns;
         let at = self.next_tick_at;
         let pose = self.body.at(at);
-        let between = self.last_tick_at + (at - self.last_tick_at) / 2;
-        let between_position_m = self.body.at(between).position_m;
+        let (between_position_m, between_offset_s) =
+            self.between.take().unwrap_or_else(|| self.truth_at(self.between_ticks()));
 
-        let mut events = Vec::new();
+        let mut events = Vec::with_capacity(self.heard.len() + 4);
         self.sensors.sense(stamp, at, &pose, &mut events);
         self.hand_over_heard(stamp, at, &mut events);
         self.hand_over_held(stamp, at, &mut events);
         events.sort_by_key(|event| (event.stamp, kind_rank(&event.sense)));
 
-        let tick = Tick { index: self.next_tick, stamp, at, pose, between, between_position_m };
+        let tick = Tick { index: self.next_tick, stamp, at, pose, between_position_m, between_offset_s };
         self.answered.push_back(tick);
         self.next_tick += 1;
         self.last_tick_at = at;
@@ -235,10 +242,8 @@ impl Vehicle {
 
     /// Pings heard up to this tick, in the order (stamp, emitter).
     fn hand_over_heard(&mut self, stamp: LocalTime, at: SimTime, events: &mut Vec<Event>) {
-        let (mut ready, waiting): (Vec<_>, Vec<_>) =
-            self.heard.drain(..).partition(|ping| ping.stamp <= stamp && ping.at <= at);
-        self.heard = waiting;
-        ready.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
+        self.heard.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
+        let ready = self.heard.extract_if(.., |ping| ping.stamp <= stamp && ping.at <= at);
         for HeardPing { stamp, frame, bearing, .. } in ready {
             events.push(Event { stamp, sense: Sense::Heard { frame } });
             events.extend(bearing.map(|sense| Event { stamp, sense }));
@@ -273,9 +278,21 @@ impl Vehicle {
 
     /// Forgets the past that no later window of true time from `now` on asks for.
     pub fn forget_before(&mut self, now: SimTime) {
-        let needed = if self.alive { self.last_tick_at.min(now) } else { now };
-        self.body.forget_before(needed);
-        self.clock.forget_before(needed);
+        if self.alive && self.between.is_none() && self.between_ticks() < now {
+            self.between = Some(self.truth_at(self.between_ticks()));
+        }
+        self.body.forget_before(now);
+        self.clock.forget_before(now);
+    }
+
+    /// Halfway from the last tick (or birth) to the next.
+    fn between_ticks(&self) -> SimTime {
+        self.last_tick_at + (self.next_tick_at - self.last_tick_at) / 2
+    }
+
+    /// True position in metres, and true time minus local time in seconds.
+    fn truth_at(&mut self, at: SimTime) -> (Vec3, f64) {
+        (self.body.position_at(at), self.clock.offset_s(at))
     }
 }
 

@@ -154,7 +154,7 @@ fn draw_known(shown: &Shown, followers: &Followers) -> Result<Figure, Box<dyn Er
 
 /// Median widths over time of one kind of measurement.
 fn draw_widths(sweep: &Sweep, measures: Measures) -> Result<Figure, Box<dyn Error>> {
-    let view = IntervalBox::from([Interval::new(0.0, DURATION_S)?, Interval::new(0.0, 320.0)?]);
+    let view = IntervalBox::from([Interval::new(0.0, DURATION_S)?, Interval::new(0.0, 660.0)?]);
     let mut figure = Figure::new(view)?
         .stretched_to(800, 400)
         .title("Median width of what everybody knows of everybody")

@@ -43,6 +43,8 @@ pub struct Meeting {
     pub start: SimTime,
     /// Distance between the places of emission and reception in metres, straight through the water.
     pub range_m: f64,
+    /// Bound of the error of that, in metres: what the receiver moves until the nanosecond that `start` names.
+    pub range_error_m: f64,
     /// Factor of frequencies.
     pub doppler: f64,
     /// How sound comes in.
@@ -79,9 +81,11 @@ impl Crossing {
                 self.not_before_ns = elapsed_ns + gap_ns / (1.0 + speed_ratio);
                 continue;
             }
+            let start = wavefront.emitted + travel_ns.max(elapsed_ns).ceil() as i64;
             return Some(Meeting {
-                start: wavefront.emitted + travel_ns.max(elapsed_ns).ceil() as i64,
+                start,
                 range_m: (place_m - wavefront.origin_m).norm(),
+                range_error_m: speed_ratio * water.slowest_m_s * ((start - at) as f64 * 1e-9),
                 doppler: self.doppler(wavefront, place_m, receiver.ground_velocity_at(at), water),
                 incidence: self.incidence(wavefront, &receiver.at(at)),
             });
@@ -132,3 +136,6 @@ impl Crossing {
         doppler_factor(emitter_rate_m_s, receiver_rate_m_s, receiver_speed_m_s)
     }
 }
+
+#[cfg(test)]
+mod tests;
