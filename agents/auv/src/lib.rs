@@ -20,6 +20,7 @@
 //! | `neighbours.rs` | who is around |
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
+//! | `relative.rs` | where the neighbours are, seen from here |
 //! | `rings.rs` | pings as rings around the present position |
 //! | `together.rs` | all rings at once |
 //! | `beacons/` | one vehicle and a few beacons, from the files of a real mission |
@@ -42,6 +43,7 @@ pub mod neighbours;
 mod newborn;
 pub mod odometry;
 pub mod offline;
+pub mod relative;
 pub mod rings;
 mod sabotage;
 pub mod state;

@@ -325,7 +325,7 @@ impl Channel {
         self.medium.arrive(to, &mut self.vehicles, &mut told);
         // Receivers share nothing, so that each takes all that is its own at once.
         told.sort_by_cached_key(|told| (told.to, told.at, told.wavefront.from, told.wavefront.sequence));
-        for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
+        for Told { at, to, wavefront, mut fate, stamp, incidence } in told.drain(..) {
             let receiver = &mut self.vehicles[to.0 as usize];
             let (from, sequence) = (wavefront.from, wavefront.sequence);
             match fate {
@@ -336,7 +336,7 @@ impl Channel {
                     if outlier || wavefront.is_false {
                         receiver.expose(at);
                     }
-                    receiver.hear(at, stamp, from.0, &wavefront.frame);
+                    receiver.hear(at, stamp, from, &wavefront.frame, incidence.as_ref());
                 }
                 _ => {}
             }

@@ -86,7 +86,9 @@ pub(super) fn contradicting(
     mission.ranges_at(pose).filter(move |&index| {
         let range = &mission.ranges()[index];
         let beacon_m = IntervalBox::centred(&mission.beacons_m()[range.beacon], 0.0);
-        Ring::new(beacon_m, Interval::centred(range.range_m, settings.range_m)).contract(position_m).is_empty()
+        Ring::new(beacon_m, Interval::centred(range.range_m, settings.range_m))
+            .contract(position_m)
+            .is_empty()
     })
 }
 
