@@ -8,7 +8,8 @@
 //! | what | how |
 //! |---|---|
 //! | log and attitude | carry the mean on; each reading's error is independent noise for one tick |
-//! | state noise, and speed-ups within a tick | independent noise for each tick |
+//! | state noise | independent noise for each tick, or tenth of a second if ticks are shorter |
+//! | speed-ups within a tick | independent noise for each tick |
 //! | Doppler velocity log | with log and attitude, measures the current |
 //! | depth, satellite fix | measured; never gated, they are the AUV's own |
 //! | ping | one number, [`ranging`]: gated, and fused as ordered |
@@ -39,6 +40,9 @@ const REACH_SIGMA: f64 = 3.0;
 /// A rate, or a change of the current, keeps its sign so long: nobody tells, so this is a choice. In this time a rate may walk from
 /// anywhere in its bounds to anywhere else.
 const MEMORY_S: f64 = 10.0;
+/// The state noise stays the same so long at least: nobody tells either, and noise that changed at every tick would vanish for those
+/// that tick fast.
+const NOISE_S: f64 = 0.1;
 /// So many local nanoseconds are remembered for pings told late; what is older is ignored. Longer than any packet of the presets.
 const HORIZON_NS: i64 = 30_000_000_000;
 
@@ -259,7 +263,7 @@ impl Told {
         noise[(RATE, RATE)] = 2.0 * self.rate * (length_s / MEMORY_S).min(1.0);
         for axis in 0..3 {
             noise[(POSITION + axis, POSITION + axis)] +=
-                self.disturbance[axis] * length_s * length_s + half_width_variance(bend_m);
+                self.disturbance[axis] * length_s * length_s.max(NOISE_S) + half_width_variance(bend_m);
             let changed_m_s = self.current_change_m_s2[axis] * MEMORY_S + self.current_step_m_s[axis];
             noise[(CURRENT + axis, CURRENT + axis)] =
                 half_width_variance(changed_m_s) * (length_s / MEMORY_S).min(1.0);

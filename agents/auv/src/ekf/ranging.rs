@@ -10,9 +10,11 @@
 //!
 //! **Fusion.** What the emitter believes may come from what this AUV told before, or both from a third. `independent` ignores that.
 //! `covariance-intersection` holds for any correlation: with `0 < w < 1` the receiver's covariance is taken as `P / w` and the
-//! emitter's share of the measurement as `D / (1 - w)`, beside the share R that is certainly new (Julier and Uhlmann, A
+//! emitter's share of the measurement as `D / (1 - w)`, with the speed of sound, which is wrong for everyone alike; beside
+//! these stands the share R that is certainly new (Julier and Uhlmann, A
 //! Non-divergent Estimation Algorithm in the Presence of Unknown Correlations, 1997; the split form with R of the same authors'
-//! General Decentralized Data Fusion with Covariance Intersection, 2001). All of P counts as perhaps shared. The w that leaves the
+//! General Decentralized Data Fusion with Covariance Intersection, 2001). All of P counts as perhaps shared.
+//! The w that leaves the
 //! least mean square error of position and clock, in metres of sound, is searched for; where none leaves less than
 //! before, the ping says nothing.
 
@@ -98,8 +100,8 @@ pub struct Sound {
 struct Range {
     row: Vector,
     innovation: f64,
-    /// Variance that comes from the emitter, in m².
-    emitter: f64,
+    /// Variance that may have been met before, in m²: of the emitter and of the speed of sound.
+    shared: f64,
     /// Variance that is certainly new, in m².
     new: f64,
 }
@@ -119,10 +121,10 @@ pub fn listen(
     };
     // Without a gain, what cannot be is still rejected: weighed as the gate would see it at its widest.
     let (inflation, variance) = match weight {
-        None => (1.0, range.emitter + range.new),
+        None => (1.0, range.shared + range.new),
         Some(weight) => {
             let weight = weight.unwrap_or(0.5);
-            (1.0 / weight, range.emitter / (1.0 - weight) + range.new)
+            (1.0 / weight, range.shared / (1.0 - weight) + range.new)
         }
     };
     let expected = filter.variance_along(&range.row) * inflation + variance;
@@ -177,10 +179,9 @@ impl Range {
         Some(Self {
             row,
             innovation: distance_m + 0.5 * curved.trace() - speed_m_s * travel_s,
-            emitter: seen.dot(&(emitter.covariance * seen)).max(0.0),
-            new: sound.speed_variance * travel_s * travel_s
-                + speed_m_s * speed_m_s * sound.stamp_variance
-                + 0.5 * (curved * curved).trace().max(0.0),
+            shared: seen.dot(&(emitter.covariance * seen)).max(0.0)
+                + sound.speed_variance * travel_s * travel_s,
+            new: speed_m_s * speed_m_s * sound.stamp_variance + 0.5 * (curved * curved).trace().max(0.0),
         })
     }
 }
@@ -194,7 +195,7 @@ fn best_weight(filter: &Filter, range: &Range, speed_m_s: f64) -> Option<f64> {
     let before: f64 = (0..4).map(|axis| metric[axis] * filter.covariance[(axis, axis)]).sum();
     let gained: f64 = (0..4).map(|axis| metric[axis] * spread[axis] * spread[axis]).sum();
     let left = |weight: f64| {
-        let expected = seen / weight + range.emitter / (1.0 - weight) + range.new;
+        let expected = seen / weight + range.shared / (1.0 - weight) + range.new;
         before / weight - gained / (weight * weight * expected)
     };
     const PARTS: u32 = 64;
