@@ -1,6 +1,5 @@
 //! The tube of poses: forward, and back and forth to a fixed point.
 
-use nalgebra::Vector2;
 use shoal_interval::IntervalBox;
 
 use super::course::{Course, OdometryBounds};
@@ -52,7 +51,7 @@ pub fn tube(mission: &Mission, start: &Start, settings: &TubeSettings) -> Track 
         .enumerate()
         .flat_map(|(pose, position_m)| contradicting(*position_m, pose, mission, settings))
         .collect();
-    let poses = boxes_m.into_iter().map(|position_m| Enclosed { centre_m: middle(&position_m), position_m });
+    let poses = boxes_m.into_iter().map(|position_m| Enclosed { centre_m: position_m.mid(), position_m });
     Track { poses: poses.collect(), rejected, emptied }
 }
 
@@ -86,25 +85,24 @@ impl Sweep<'_> {
 
     /// Backward and forward until nothing moves any more.
     fn smooth(&mut self) {
+        let mut searched_m = vec![IntervalBox::ENTIRE; self.boxes_m.len()];
         for _ in 0..MOST_SWEEPS {
             let before = self.boxes_m.clone();
             for pose in (0..self.boxes_m.len()).rev() {
-                self.narrow(pose);
+                self.narrow(pose, &mut searched_m[pose]);
             }
             for pose in 0..self.boxes_m.len() {
-                self.narrow(pose);
+                self.narrow(pose, &mut searched_m[pose]);
             }
-            let narrowed = |(old, new): (&IntervalBox<2>, &IntervalBox<2>)| {
-                (0..2).any(|axis| new[axis].width() < (1.0 - STOPPING_RATIO) * old[axis].width())
-            };
-            if !before.iter().zip(&self.boxes_m).any(narrowed) {
+            if !before.iter().zip(&self.boxes_m).any(|(old_m, new_m)| is_narrower(new_m, old_m)) {
                 break;
             }
         }
     }
 
     /// Contracts one pose by its neighbours and by the ranges around it. What would leave nothing is not believed.
-    fn narrow(&mut self, pose: usize) {
+    /// The ranges have nothing new to say about `searched_m`, what they left the last time.
+    fn narrow(&mut self, pose: usize, searched_m: &mut IntervalBox<2>) {
         let mut position_m = self.boxes_m[pose];
         let mut meet = |other_m: Option<IntervalBox<2>>| {
             let both_m = other_m.map_or(position_m, |other_m| position_m & other_m);
@@ -114,8 +112,9 @@ impl Sweep<'_> {
         };
         meet(self.boxes_m.get(pose + 1).map(|next_m| *next_m - self.course.step_m(pose)));
         meet(pose.checked_sub(1).map(|last| self.boxes_m[last] + self.course.step_m(last)));
-        if let Some(agreed_m) = self.agreed(position_m, pose, Reach::Around) {
-            position_m = agreed_m;
+        if is_narrower(&position_m, searched_m) {
+            position_m = self.agreed(position_m, pose, Reach::Around).unwrap_or(position_m);
+            *searched_m = position_m;
         }
         self.boxes_m[pose] = position_m;
     }
@@ -125,7 +124,7 @@ impl Sweep<'_> {
     }
 }
 
-/// The middle of a box.
-pub(super) fn middle(position_m: &IntervalBox<2>) -> Vector2<f64> {
-    position_m.mid()
+/// Whether a box has become narrower than it was by so much that it is worth going on.
+fn is_narrower(now_m: &IntervalBox<2>, before_m: &IntervalBox<2>) -> bool {
+    (0..2).any(|axis| now_m[axis].width() < (1.0 - STOPPING_RATIO) * before_m[axis].width())
 }

@@ -8,14 +8,14 @@
 
 use std::ops::Range;
 
-use shoal_interval::contractor::{Contractor, Ring, q_intersection};
+use shoal_interval::contractor::{Contractor, QIntersection, Ring, q_intersection};
 use shoal_interval::{Interval, IntervalBox};
 
 use super::course::Course;
 use super::{Mission, TubeSettings};
 
-/// More boxes than this are not looked at for one pose; what is then left counts as possible.
-const MOST_BOXES: usize = 50_000;
+/// More boxes than this are not looked at for one side of a pose, which then stays where it was.
+const MOST_BOXES: usize = 10_000;
 
 /// Which ranges say something about a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,42 +38,92 @@ pub(super) fn agreed(
     settings: &TubeSettings,
 ) -> Option<IntervalBox<2>> {
     let rings = rings(pose, reach, mission, course, settings);
-    let with = |outliers: usize| hull(position_m, &rings, outliers, settings.precision_m);
-    for outliers in 0..=settings.outliers {
-        let found_m = with(outliers);
-        if !found_m.is_empty() {
-            return Some(if settings.margin == 0 { found_m } else { with(outliers + settings.margin) });
-        }
-    }
-    None
+    let least = (0..=settings.outliers)
+        .find(|&outliers| Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0]).is_some())?;
+    Some(Relaxed::new(&rings, least.saturating_add(settings.margin), settings).hull(position_m))
 }
 
-/// A box that holds every place in `domain_m` that is in all `rings` but so many of them, no more than a few `precision_m` larger
-/// than the smallest one.
-///
-/// Bisects like any paving, but what lies inside the hull of what was found already is not looked at, which leaves only the places
-/// around the extremes.
-fn hull(domain_m: IntervalBox<2>, rings: &[Ring<2>], outliers: usize, precision_m: f64) -> IntervalBox<2> {
-    if outliers >= rings.len() {
-        return domain_m;
+/// The places that are in all rings but a number of them.
+struct Relaxed {
+    /// Nothing, when so many rings may be wrong that the others say nothing.
+    contractor: Option<QIntersection<Ring<2>>>,
+    precision_m: f64,
+}
+
+impl Relaxed {
+    fn new(rings: &[Ring<2>], outliers: usize, settings: &TubeSettings) -> Self {
+        let says_something = outliers < rings.len();
+        let contractor = says_something.then(|| q_intersection(rings.iter().copied(), outliers));
+        Self { contractor, precision_m: settings.precision_m }
     }
-    let contractor = q_intersection(rings.iter().copied(), outliers);
-    let mut found_m = IntervalBox::EMPTY;
-    let mut undecided = vec![domain_m];
-    let mut seen = 0;
-    while let Some(place_m) = undecided.pop() {
-        if place_m.is_subset_of(&found_m) {
-            continue;
-        }
-        let place_m = contractor.contract(place_m);
-        seen += 1;
-        let halves = if place_m.width() > precision_m && seen < MOST_BOXES { place_m.bisect() } else { None };
-        match halves {
-            Some((low_m, high_m)) => undecided.extend([low_m, high_m]),
-            None => found_m = found_m | place_m,
-        }
+
+    /// A box that holds every such place in `domain_m`, each side no more than about a precision beyond the farthest of them.
+    fn hull(&self, domain_m: IntervalBox<2>) -> IntervalBox<2> {
+        Side::ALL.iter().fold(domain_m, |left_m, side| match self.bound(left_m, *side) {
+            Some(bound_m) => side.cut(left_m, bound_m),
+            None => IntervalBox::EMPTY,
+        })
     }
-    found_m
+
+    /// How far such places in `domain_m` can reach towards a side; `None` when there are none.
+    ///
+    /// Contracts and bisects what reaches farthest, until that is too small to bisect: what is not at the rim is never looked at.
+    fn bound(&self, domain_m: IntervalBox<2>, side: Side) -> Option<f64> {
+        let Some(contractor) = &self.contractor else {
+            return (!domain_m.is_empty()).then(|| side.of(&domain_m));
+        };
+        let mut undecided = vec![contractor.contract(domain_m)];
+        undecided.retain(|place_m| !place_m.is_empty());
+        for _ in 0..MOST_BOXES {
+            let reach = |place_m: &IntervalBox<2>| side.outwards(side.of(place_m));
+            let farthest = (0..undecided.len())
+                .max_by(|&one, &other| reach(&undecided[one]).total_cmp(&reach(&undecided[other])))?;
+            let place_m = undecided.swap_remove(farthest);
+            let halves = if place_m.width() > self.precision_m { place_m.bisect() } else { None };
+            let Some((low_m, high_m)) = halves else { return Some(side.of(&place_m)) };
+            let halves = [low_m, high_m].map(|half_m| contractor.contract(half_m));
+            undecided.extend(halves.into_iter().filter(|half_m| !half_m.is_empty()));
+        }
+        Some(side.of(&domain_m))
+    }
+}
+
+/// One of the four sides of a box.
+#[derive(Clone, Copy)]
+struct Side {
+    axis: usize,
+    is_upper: bool,
+}
+
+impl Side {
+    const ALL: [Self; 4] = [
+        Self { axis: 0, is_upper: false },
+        Self { axis: 0, is_upper: true },
+        Self { axis: 1, is_upper: false },
+        Self { axis: 1, is_upper: true },
+    ];
+
+    /// Where a box has this side.
+    fn of(self, place_m: &IntervalBox<2>) -> f64 {
+        let along = place_m[self.axis];
+        if self.is_upper { along.upper() } else { along.lower() }
+    }
+
+    /// Greater the farther out.
+    fn outwards(self, bound_m: f64) -> f64 {
+        if self.is_upper { bound_m } else { -bound_m }
+    }
+
+    /// What of a box does not reach beyond `bound_m`, which is inside of it.
+    fn cut(self, mut place_m: IntervalBox<2>, bound_m: f64) -> IntervalBox<2> {
+        let along = place_m[self.axis];
+        place_m[self.axis] = if self.is_upper {
+            Interval::spanning(along.lower(), bound_m)
+        } else {
+            Interval::spanning(bound_m, along.upper())
+        };
+        place_m
+    }
 }
 
 /// Which of a pose's own ranges cannot be right when the vehicle is in `position_m`.
