@@ -123,6 +123,7 @@
 //! | `ping_period_s` | s | 1 | between pings, in local time; with `"aloha"` their mean; `false` for a silent AUV |
 //! | `ping_phase_s` | s | drawn | local time of the first ping; only with `"periodic"` |
 //! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
+//! | `bearing_error_rad` | rad | `false` | error of the direction from which a ping arrives, up to pi: an ultra-short baseline array |
 //! | `frame_bytes` | | 64 | bytes that one ping may have: [`PING_BYTES`] to [`FRAME_BYTES_MAX`] |
 //! | `addresses` | | none | so many devices can be told apart: a run with more is warned of |
 //! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, `"slotted"`, `"csma"`, or a table with that `name` |

@@ -5,7 +5,7 @@ mod sea;
 
 use std::fmt::Write;
 
-use self::modem::write_modem;
+use self::modem::{Drawn, write_modem};
 use self::sea::{SeaDrawn, write_sea};
 
 /// A reproducible source of draws (SplitMix64).
@@ -189,9 +189,12 @@ fn current_field(dice: &mut Dice) -> (String, f64) {
 fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, most: u64) -> std::fmt::Result {
     let count = dice.whole(if water.groups == 1 { 2 } else { 1 }, most);
     writeln!(text, "\n[[group]]\nname = \"g{index}\"\ncount = {count}")?;
+    let modem = Drawn::draw(dice, water)?;
     let control_period_s = dice.seconds(0.02, 0.5);
     writeln!(text, "control_period_s = {control_period_s}\nreaction_s = {}", dice.seconds(0.012, 0.5))?;
-    writeln!(text, "estimator = {{ name = \"tube\", horizon_s = {} }}", dice.seconds(0.05, 10.0))?;
+    // A packet is told at its end and belongs to its beginning, which must not be forgotten by then.
+    let horizon_s = modem.packet_s + dice.magnitude(0.05, 10.0).max(0.05);
+    writeln!(text, "estimator = {{ name = \"tube\", horizon_s = {horizon_s:.3} }}")?;
 
     let is_suite = dice.chance(0.2);
     if is_suite {
@@ -219,7 +222,7 @@ fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, mo
     if !is_suite {
         write_sensors(text, dice, water)?;
     }
-    write_modem(text, dice, water)
+    write_modem(text, dice, water, &modem)
 }
 
 fn write_clock(text: &mut String, dice: &mut Dice) -> std::fmt::Result {

@@ -8,6 +8,8 @@ use shoal_bus::time::NS_PER_S;
 
 use crate::bounds::{bounds, bounds_box};
 use crate::controller::{self, Belief, Controller};
+use crate::dead_reckoning::DeadReckoning;
+use crate::ekf::Ekf;
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::modem::Modem;
 use crate::sabotage;
@@ -27,10 +29,10 @@ impl Auv {
     /// The mind of a newborn.
     pub fn new(born: &Born) -> Self {
         let believed = sabotage::believed(born);
-        let estimator = match born.orders.estimator {
-            EstimatorOrders::Tube(_) | EstimatorOrders::Ekf(_) | EstimatorOrders::DeadReckoning => {
-                Box::new(TubeEstimator::new(&believed))
-            }
+        let estimator: Box<dyn Estimator> = match born.orders.estimator {
+            EstimatorOrders::Tube(_) => Box::new(TubeEstimator::new(&believed)),
+            EstimatorOrders::Ekf(settings) => Box::new(Ekf::new(&believed, settings)),
+            EstimatorOrders::DeadReckoning => Box::new(DeadReckoning::new(&believed)),
         };
         let orders = &born.orders;
         let lead_ns = born.wake.reaction_ns + born.wake.period_ns / 2;
@@ -91,7 +93,7 @@ impl Mind for Auv {
         for booking in self.modem.due(sensed, &|at| self.estimator.predict(at).time_s) {
             let mut prediction = self.estimator.predict(booking.at);
             if self.born.orders.sabotage == Some(Sabotage::LyingPing) {
-                prediction.position_m = sabotage::elsewhere(&prediction.position_m);
+                sabotage::lie(&mut prediction);
             }
             pings.extend(self.modem.plan(booking, &prediction));
         }

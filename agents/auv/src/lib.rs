@@ -8,6 +8,8 @@
 //! | `auv.rs` | the mind: estimator, controller, modem |
 //! | `estimator.rs` | what an estimator is |
 //! | `tube_estimator.rs` | the state tube, online |
+//! | `ekf.rs`, `ekf/` | an extended Kalman filter, to compare with |
+//! | `dead_reckoning.rs` | log and clock alone, to compare with |
 //! | `state.rs` | position and clock as one set, contracted by measurements |
 //! | `motion.rs` | how far the body can have moved |
 //! | `current.rs` | the current, as a Doppler velocity log sees it |
@@ -18,14 +20,19 @@
 //! | `neighbours.rs` | who is around |
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
+//! | `relative.rs` | where the neighbours are, seen from here |
 //! | `rings.rs` | pings as rings around the present position |
 //! | `together.rs` | all rings at once |
+//! | `beacons/` | one vehicle and a few beacons, from the files of a real mission |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
+pub mod beacons;
 mod bounds;
 pub mod controller;
 pub mod current;
+pub mod dead_reckoning;
+pub mod ekf;
 pub mod estimator;
 mod history;
 pub mod medium_access;
@@ -36,6 +43,7 @@ pub mod neighbours;
 mod newborn;
 pub mod odometry;
 pub mod offline;
+pub mod relative;
 pub mod rings;
 mod sabotage;
 pub mod state;

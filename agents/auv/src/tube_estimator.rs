@@ -170,7 +170,7 @@ impl TubeEstimator {
     fn contracted(&self, state: &State, event: &Event, lag_s: f64) -> Result<Informed, Contradiction> {
         let stamp_s = self.local_s(event.stamp);
         let state = match &event.sense {
-            Sense::Inertial { .. } | Sense::Dvl { .. } | Sense::Held => *state,
+            Sense::Inertial { .. } | Sense::Dvl { .. } | Sense::Bearing { .. } | Sense::Held => *state,
             Sense::Depth { depth_m } => state.with_depth(*depth_m)?,
             Sense::Gnss { position_m, time_s } => {
                 state.with_fix(&interval_box(position_m), interval(*time_s), stamp_s)?
@@ -295,6 +295,7 @@ impl Estimator for TubeEstimator {
                 .motion
                 .over_ground(&self.motion.velocity_after(&self.velocity_m_s, length_s), &stretch.current_m_s),
             current_m_s: stretch.current_m_s,
+            gaussian: None,
         }
     }
 }

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Entry, Truth, Violation, What};
 use shoal_bus::codec::CodecError;
 use shoal_bus::lockstep::{Answers, Batch, Loss};
-use shoal_bus::message::{Acted, AuvId, Born, Event, Sensed, box_width};
-use shoal_bus::ping::{Frame, Ping};
+use shoal_bus::message::{Acted, AuvId, Born, Estimator, Event, Sensed, box_width};
+use shoal_bus::ping::{Frame, Payload};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
@@ -275,8 +275,8 @@ impl Channel {
         emitter.emits_until = at + packet_ns;
         let pose = emitter.body.at(at);
         let exposed = emitter.is_exposed_at(at);
-        let (violation, box_width_m) =
-            check_ping(from, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
+        let Checked { is_promise, violation, box_width_m } =
+            check_ping(&emitter.born, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
         let wavefront = Arc::new(Wavefront {
             from,
             sequence,
@@ -299,7 +299,9 @@ impl Channel {
             packet_s: packet_ns as f64 * 1e-9,
         };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
-        self.tally.check(from, at, violation, exposed);
+        if is_promise {
+            self.tally.check(from, at, violation, exposed);
+        }
     }
 
     /// Why a modem does not emit what is booked for now, if it does not.
@@ -323,7 +325,7 @@ impl Channel {
         self.medium.arrive(to, &mut self.vehicles, &mut told);
         // Receivers share nothing, so that each takes all that is its own at once.
         told.sort_by_cached_key(|told| (told.to, told.at, told.wavefront.from, told.wavefront.sequence));
-        for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
+        for Told { at, to, wavefront, mut fate, stamp, incidence } in told.drain(..) {
             let receiver = &mut self.vehicles[to.0 as usize];
             let (from, sequence) = (wavefront.from, wavefront.sequence);
             match fate {
@@ -334,7 +336,7 @@ impl Channel {
                     if outlier || wavefront.is_false {
                         receiver.expose(at);
                     }
-                    receiver.hear(at, stamp, from.0, &wavefront.frame);
+                    receiver.hear(at, stamp, from, &wavefront.frame, incidence.as_ref());
                 }
                 _ => {}
             }
@@ -397,21 +399,23 @@ impl Channel {
         vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
         let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
         let report = &acted.report;
-        let at_tick = Check::of(Enclosure::Report)
-            .position(&report.position_m, &tick.pose.position_m)
-            .time(&report.clock_offset_s, offset_s)
-            .violation();
-        let between_ticks = Check::of(Enclosure::Slice)
-            .position(&report.slice.position_m, &tick.between_position_m)
-            .time(&report.slice.clock_offset_s, tick.between_offset_s)
-            .violation();
-        let exposed = vehicle.is_exposed_at(tick.at);
-        self.tally.check(auv, tick.at, at_tick, exposed);
-        self.tally.check(auv, tick.at, between_ticks, exposed);
-        if report.emptied.is_some() {
-            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), exposed);
+        if promises(&vehicle.born) {
+            let at_tick = Check::of(Enclosure::Report)
+                .position(&report.position_m, &tick.pose.position_m)
+                .time(&report.clock_offset_s, offset_s)
+                .violation();
+            let between_ticks = Check::of(Enclosure::Slice)
+                .position(&report.slice.position_m, &tick.between_position_m)
+                .time(&report.slice.clock_offset_s, tick.between_offset_s)
+                .violation();
+            let exposed = vehicle.is_exposed_at(tick.at);
+            self.tally.check(auv, tick.at, at_tick, exposed);
+            self.tally.check(auv, tick.at, between_ticks, exposed);
+            if report.emptied.is_some() {
+                self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), exposed);
+            }
         }
-        self.tally.reported(auv, box_width(&report.position_m), report.clock_offset_s.width());
+        self.tally.reported(auv, report, &tick.pose.position_m, offset_s);
         for (index, ping) in acted.pings.iter().enumerate() {
             if ping.at < takes_effect {
                 // It never left, so it has no number but its place in the answer.
@@ -435,25 +439,36 @@ impl Channel {
     }
 }
 
-/// Checks a payload at its emission; also gives the width of its position box in metres.
-fn check_ping(
-    from: AuvId,
-    at: SimTime,
-    frame: &Frame,
-    position_m: &Vec3,
-    velocity_m_s: &Vec3,
-) -> (Option<Violation>, f64) {
-    match Ping::decode(frame) {
-        Ok(ping) if ping.sender == from => {
+/// Whether the AUV promises that what it states holds the truth: all but Kalman filters do.
+fn promises(born: &Born) -> bool {
+    !matches!(born.orders.estimator, Estimator::Ekf(_))
+}
+
+/// What a payload is worth.
+struct Checked {
+    is_promise: bool,
+    violation: Option<Violation>,
+    box_width_m: f64,
+}
+
+/// Checks a payload at its emission. The Gaussian of an AUV that promises nothing is not false, whatever it says: only estimators
+/// that promise nothing either take it in.
+fn check_ping(emitter: &Born, at: SimTime, frame: &Frame, position_m: &Vec3, velocity_m_s: &Vec3) -> Checked {
+    let (is_promise, violation, box_width_m) = match Payload::decode(frame) {
+        Ok(Payload::Intervals(ping)) if ping.sender == emitter.auv => {
             let violation = Check::of(Enclosure::Ping)
                 .position(&ping.position_m, position_m)
                 .velocity(&ping.velocity_m_s, velocity_m_s)
                 .time(&ping.emission_s, at.as_s())
                 .violation();
-            (violation, box_width(&ping.position_m))
+            (true, violation, box_width(&ping.position_m))
         }
-        _ => (Some(check::nothing(Enclosure::Ping)), 0.0),
-    }
+        Ok(Payload::Gaussian(ping)) if ping.sender == emitter.auv && !promises(emitter) => {
+            (false, None, box_width(&ping.position_box_m()))
+        }
+        _ => (true, Some(check::nothing(Enclosure::Ping)), 0.0),
+    };
+    Checked { is_promise, violation, box_width_m }
 }
 
 /// (true time, vehicle, kind, index): entries of one vehicle, kind and moment keep the order in which they were told, but

@@ -6,6 +6,7 @@ use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason};
 
+use crate::bearing::Incidence;
 use crate::grid::Grid;
 use crate::sound::{Flight, Told, Wavefront, reach_m};
 use crate::vehicle::Vehicle;
@@ -91,7 +92,12 @@ impl Ideal {
                     outlier: false,
                 }
             };
-            told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None });
+            let incidence = receiver.has_bearings().then(|| {
+                let pose = receiver.body.at(arrival.at);
+                let towards = wavefront.origin_m - pose.position_m;
+                Incidence { towards, heading_rad: pose.attitude.heading_rad }
+            });
+            told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None, incidence });
             false
         });
         self.flights.extend(flying);

@@ -106,7 +106,7 @@ fn paths(bounces_max: u8) -> Vec<SoundPath> {
 /// A packet that, as is clear when it leaves, will never be decoded there.
 fn lost(wavefront: &Arc<Wavefront>, to: AuvId, reason: LossReason, range_m: f64) -> Told {
     let fate = Fate::lost(Some(to), reason, range_m);
-    Told { at: wavefront.emitted, to, wavefront: Arc::clone(wavefront), fate, stamp: None }
+    Told { at: wavefront.emitted, to, wavefront: Arc::clone(wavefront), fate, stamp: None, incidence: None }
 }
 
 /// The link between two groups; none when either's modem has no physical layer.

@@ -11,6 +11,7 @@ use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_bus::traffic::Fate;
 
+use crate::bearing::Incidence;
 use crate::body::{Body, Segment, Vec3};
 
 /// Bound of the error of an arrival's true time, in seconds: the solver's tolerance and the whole nanosecond it is rounded to.
@@ -54,6 +55,8 @@ pub struct Told {
     pub fate: Fate,
     /// What the receiver's clock read when the packet began, if that was not at `at`.
     pub stamp: Option<LocalTime>,
+    /// How it came in, if it was heard and if that matters to the receiver.
+    pub incidence: Option<Incidence>,
 }
 
 /// A wavefront on its way to one receiver.

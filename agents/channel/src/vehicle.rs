@@ -2,11 +2,12 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Acted, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{Acted, AuvId, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_scenario::LISTEN_MAX_NS;
 
+use crate::bearing::{BearingArray, Incidence};
 use crate::birth::Newborn;
 use crate::body::{Body, Pose, Vec3};
 use crate::clock::TrueClock;
@@ -40,6 +41,7 @@ pub struct Vehicle {
     sensors: Sensors,
     timestamps: Draws,
     timestamp_error_s: f64,
+    bearings: Option<BearingArray>,
     next_tick: u64,
     next_tick_at: SimTime,
     last_tick_at: SimTime,
@@ -68,8 +70,10 @@ pub struct Planned {
 struct HeardPing {
     stamp: LocalTime,
     at: SimTime,
-    from: u32,
+    from: AuvId,
     frame: Frame,
+    /// Where it came from, if the AUV has an array.
+    bearing: Option<Sense>,
 }
 
 /// A tick that waits for its answer, with the truth to check it against.
@@ -92,7 +96,7 @@ pub struct Tick {
 impl Vehicle {
     /// A newborn in the water.
     pub fn new(newborn: Newborn, ground_speed_m_s: f64, length_m: f64, timestamp_error_s: f64) -> Self {
-        let Newborn { mut clock, body, sensors, arrivals, born } = newborn;
+        let Newborn { mut clock, body, sensors, arrivals, bearings, born } = newborn;
         let next_tick_at = clock.reaches(born.wake.first_tick);
         Self {
             born,
@@ -107,6 +111,7 @@ impl Vehicle {
             sensors,
             timestamps: arrivals,
             timestamp_error_s,
+            bearings,
             next_tick: 0,
             next_tick_at,
             last_tick_at: SimTime::ZERO,
@@ -139,11 +144,25 @@ impl Vehicle {
         self.exposed_since.is_some_and(|since| since <= at)
     }
 
+    /// Whether it measures from where pings come.
+    pub fn has_bearings(&self) -> bool {
+        self.bearings.is_some()
+    }
+
     /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.
-    pub fn hear(&mut self, at: SimTime, stamp: Option<LocalTime>, from: u32, frame: &Frame) {
+    pub fn hear(
+        &mut self,
+        at: SimTime,
+        stamp: Option<LocalTime>,
+        from: AuvId,
+        frame: &Frame,
+        incidence: Option<&Incidence>,
+    ) {
         let error_ns = (self.timestamps.error(self.timestamp_error_s) * 1e9) as i64;
         let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns;
-        self.heard.push(HeardPing { stamp, at, from, frame: *frame });
+        let bearing =
+            self.bearings.as_mut().zip(incidence).map(|(array, incidence)| array.sense(from, incidence));
+        self.heard.push(HeardPing { stamp, at, from, frame: *frame, bearing });
     }
 
     /// Its modem held back, at true time `at`, the ping that was booked for `stamp`.
@@ -225,8 +244,10 @@ impl Vehicle {
     fn hand_over_heard(&mut self, stamp: LocalTime, at: SimTime, events: &mut Vec<Event>) {
         self.heard.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
         let ready = self.heard.extract_if(.., |ping| ping.stamp <= stamp && ping.at <= at);
-        events
-            .extend(ready.map(|ping| Event { stamp: ping.stamp, sense: Sense::Heard { frame: ping.frame } }));
+        for HeardPing { stamp, frame, bearing, .. } in ready {
+            events.push(Event { stamp, sense: Sense::Heard { frame } });
+            events.extend(bearing.map(|sense| Event { stamp, sense }));
+        }
     }
 
     /// Pings held back up to this tick.
@@ -283,7 +304,8 @@ fn kind_rank(sense: &Sense) -> u8 {
         Sense::Depth { .. } => 2,
         Sense::Gnss { .. } => 3,
         Sense::Heard { .. } => 4,
-        Sense::Held => 5,
+        Sense::Bearing { .. } => 5,
+        Sense::Held => 6,
     }
 }
 

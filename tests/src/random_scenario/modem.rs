@@ -8,26 +8,34 @@ use shoal_scenario::presets::MODEMS;
 use super::{Dice, Sound, Water};
 
 /// A modem as far as its packets go.
-struct Drawn {
+pub(super) struct Drawn {
     lines: String,
-    /// Length of a ping, rounded up.
-    packet_s: f64,
+    /// Length of a ping.
+    pub(super) packet_s: f64,
 }
 
-pub(super) fn write_modem(text: &mut String, dice: &mut Dice, water: &Water) -> std::fmt::Result {
-    text.push_str("[group.modem]\n");
-    let drawn = match &water.sound {
-        Sound::Ideal { .. } => Drawn {
-            lines: format!("range_m = {}\n", dice.magnitude(5.0, 4.0 * water.side_m + 5.0)),
-            packet_s: 0.0,
-        },
-        Sound::Sea(sea) => {
-            let number = if dice.chance(0.6) { sea.modem_number } else { dice.whole(0, 1 << 40) };
-            physical(&mut Dice::new(number), sea.is_wide)?
+impl Drawn {
+    pub(super) fn draw(dice: &mut Dice, water: &Water) -> Result<Self, std::fmt::Error> {
+        match &water.sound {
+            Sound::Ideal { .. } => Ok(Self {
+                lines: format!("range_m = {}\n", dice.magnitude(5.0, 4.0 * water.side_m + 5.0)),
+                packet_s: 0.0,
+            }),
+            Sound::Sea(sea) => {
+                let number = if dice.chance(0.6) { sea.modem_number } else { dice.whole(0, 1 << 40) };
+                physical(&mut Dice::new(number), sea.is_wide)
+            }
         }
-    };
-    text.push_str(&drawn.lines);
-    writeln!(text, "timestamp_error_s = {}", dice.error(1e-3))?;
+    }
+}
+
+pub(super) fn write_modem(
+    text: &mut String,
+    dice: &mut Dice,
+    water: &Water,
+    drawn: &Drawn,
+) -> std::fmt::Result {
+    writeln!(text, "[group.modem]\n{}timestamp_error_s = {}", drawn.lines, dice.error(1e-3))?;
     write_access(text, dice, water, drawn.packet_s)?;
     if drawn.packet_s > 0.0 && dice.chance(0.25) {
         let awake_s = drawn.packet_s * dice.between(1.0, 8.0) + 0.001;

@@ -4,8 +4,9 @@ use shoal_bus::time::SimTime;
 use shoal_bus::traffic::SoundPath;
 
 use crate::acoustics::doppler::doppler_factor;
-use crate::acoustics::ray::Ray;
-use crate::body::{Body, Vec3};
+use crate::acoustics::ray::{Direction, Ray};
+use crate::bearing::Incidence;
+use crate::body::{Body, Pose, Vec3};
 use crate::sound::Wavefront;
 
 use super::SeaWater;
@@ -46,6 +47,8 @@ pub struct Meeting {
     pub range_error_m: f64,
     /// Factor of frequencies.
     pub doppler: f64,
+    /// How sound comes in.
+    pub incidence: Incidence,
 }
 
 impl Crossing {
@@ -84,6 +87,7 @@ impl Crossing {
                 range_m: (place_m - wavefront.origin_m).norm(),
                 range_error_m: speed_ratio * water.slowest_m_s * ((start - at) as f64 * 1e-9),
                 doppler: self.doppler(wavefront, place_m, receiver.ground_velocity_at(at), water),
+                incidence: self.incidence(wavefront, &receiver.at(at)),
             });
         }
         None
@@ -105,6 +109,16 @@ impl Crossing {
             }
         }
         self.ray.travel_s
+    }
+
+    /// Back along the ray, which stays in the vertical plane of both ends.
+    fn incidence(&self, wavefront: &Wavefront, receiver: &Pose) -> Incidence {
+        let back = (wavefront.origin_m - receiver.position_m).xy().try_normalize(0.0).unwrap_or_default();
+        let Direction { cos, sin } = self.ray.arrival;
+        Incidence {
+            towards: Vec3::new(cos * back.x, cos * back.y, -sin),
+            heading_rad: receiver.attitude.heading_rad,
+        }
     }
 
     /// Both motions along the ray, at either end.

@@ -226,7 +226,7 @@ impl Listener {
             packet.wavefront = None;
             self.unused.push(arrival.flight);
         }
-        Some(Told { at, to, wavefront, fate, stamp: Some(stamp) })
+        Some(Told { at, to, wavefront, fate, stamp: Some(stamp), incidence: Some(meeting.incidence) })
     }
 }
 

@@ -44,6 +44,7 @@ pub fn summary_with(auvs: u32, end_max: f64) -> Summary {
         real_time_factor: Some(30.0),
         wakes: 210,
         digest: "blake3:00ff".into(),
+        estimators: Vec::new(),
         containment: Containment { checks: 42, violations: 2, first: Vec::new(), misled: Misled::default() },
         position_width_m: Widths::default(),
         clock_width_s: Widths { end_max, ..Widths::default() },
