@@ -20,7 +20,7 @@ pub enum Row {
     /// One AUV's true state at a tick, from [`Topic::Ticks`].
     Truth(TruthRow),
     /// What one AUV answered and believed at a tick, from [`Topic::Reports`].
-    Report(ReportRow),
+    Report(Box<ReportRow>),
     /// What became of a ping, from [`Topic::Pings`].
     Ping(PingRow),
     /// What one AUV was told at a tick, from [`Topic::Sensed`].
@@ -134,7 +134,11 @@ fn is_of(source: &Source, topic: Topic) -> bool {
 fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
     match topic {
         Topic::Ticks => parse::<Ticks>(topic, data)?.ticks.into_iter().map(Row::Truth).for_each(visit),
-        Topic::Reports => parse::<Reports>(topic, data)?.reports.into_iter().map(Row::Report).for_each(visit),
+        Topic::Reports => parse::<Reports>(topic, data)?
+            .reports
+            .into_iter()
+            .map(|row| Row::Report(Box::new(row)))
+            .for_each(visit),
         Topic::Pings => parse::<Pings>(topic, data)?.pings.into_iter().map(Row::Ping).for_each(visit),
         Topic::Sensed => {
             let told: Vec<(SimTime, AuvId, Sensed)> = decode(topic, data)?;

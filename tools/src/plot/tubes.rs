@@ -1,7 +1,7 @@
 //! The tubes of one AUV's clock and abscissa: without pings, online, and offline (seed 001, figure 5.9).
 
 use shoal_bus::message::AuvId;
-use shoal_bus::record::rows::{OfflineRow, Pair, ReportRow};
+use shoal_bus::record::rows::{OfflineRow, Pair};
 use shoal_bus::record::{RecordHeader, Row, Topic};
 
 use super::Plot;
@@ -56,8 +56,8 @@ impl Plot for Tubes {
                 at_s: row.t_ns.as_s(),
                 values: [(row.t_ns.ns() - row.local_ns.ns()) as f64 * 1e-9, row.position_m[0].0],
             }),
-            Row::Report(ReportRow { auv, tick, position_m, clock_offset_s, .. }) if *auv == self.auv => {
-                self.online.push((*tick, gate(*clock_offset_s, position_m[0])));
+            Row::Report(row) if row.auv == self.auv => {
+                self.online.push((row.tick, gate(row.clock_offset_s, row.position_m[0])));
             }
             Row::Offline(row) if row.auv == self.auv => {
                 let OfflineRow { alone_position_m, alone_clock_offset_s, position_m, clock_offset_s, .. } =
