@@ -1,7 +1,7 @@
 //! All trajectories of a run at once, after the run: every ping contracts both its ends, forward and backward in time.
 //!
 //! Online, an AUV contracts its present state by what a ping says of its emitter, and what it learns later never helps what it
-//! was. Once all records lie side by side, each trajectory is a chain of [`State`]s with the odometry's ways in between, and each
+//! was. Once all records lie side by side, each trajectory is a chain of [`State`](crate::state::State)s with the odometry's ways in between, and each
 //! ping ties one link of the emitter's chain to one of the receiver's: `|p_i(a) - p_j(b)| in [c] (t_j(b) - t_i(a))` (seed 001,
 //! equations 5.4 and 5.7, and figure 5.9 (3)). What an emitter believed when it sent the ping is not needed: its chain says better
 //! where it was.
