@@ -61,6 +61,9 @@ pub struct Place {
     pub time_s: Interval,
 }
 
+/// Nothing is known.
+const ANYWHERE: Place = Place { position_m: IntervalBox::ENTIRE, time_s: Interval::ENTIRE };
+
 impl Exchange {
     /// Takes in where its ends are now.
     pub fn look(&mut self, trajectories: &[Trajectory]) {
@@ -127,10 +130,16 @@ pub fn exchanges(auvs: &[Recorded]) -> (Vec<Exchange>, Vec<Vec<LocalTime>>) {
             Sound { speed_m_s: interval(modem.sound_speed_m_s), hearing_range_m: modem.hearing_range_m };
         for event in recorded.sensed.iter().flat_map(|sensed| &sensed.events) {
             let Sense::Heard { frame } = &event.sense else { continue };
-            // Bytes that are no ping say nothing.
-            let Ok(ping) = Ping::decode(frame) else { continue };
             let emission =
                 booked.get(frame.bytes()).copied().flatten().filter(|emission| emission.auv != auv);
+            // A trajectory says where its AUV was, whatever the frame says. A frame alone must be certain, as a Gaussian is not.
+            let emitter = match Ping::decode(frame) {
+                Ok(ping) => {
+                    Place { position_m: interval_box(&ping.position_m), time_s: interval(ping.emission_s) }
+                }
+                Err(_) if emission.is_some() => ANYWHERE,
+                Err(_) => continue,
+            };
             let reception = Event::new(auv, &recorded.born, event.stamp, modem.timestamp_s);
             for end in emission.iter().chain([&reception]) {
                 moments[end.auv].push(end.stamp);
@@ -138,11 +147,8 @@ pub fn exchanges(auvs: &[Recorded]) -> (Vec<Exchange>, Vec<Vec<LocalTime>>) {
             exchanges.push(Exchange {
                 emission,
                 reception,
-                emitter: Place {
-                    position_m: interval_box(&ping.position_m),
-                    time_s: interval(ping.emission_s),
-                },
-                receiver: Place { position_m: IntervalBox::ENTIRE, time_s: Interval::ENTIRE },
+                emitter,
+                receiver: ANYWHERE,
                 sound,
                 is_dropped: false,
             });
