@@ -6,7 +6,7 @@
 //!
 //! The observer is that of section 3 with m = 50 and q = 10, `X(k) = f(X(k - m)) and {q} of the last m measurements`. Gaussian noise has no
 //! bounds, and the seed does not print those it took: here a measurement further than 2 standard deviations off is an outlier,
-//! and state noise never exceeds 4.5. So the assumption is that of any 50 measurements in a row at most 10 are further off than
+//! and state noise never exceeds 5. So the assumption is that of any 50 measurements in a row at most 10 are further off than
 //! that, and as long as it holds, the set holds the truth: asserted at every step. Heading and speed are enclosed by relaxed
 //! intersection, and with them the way gone since each measurement; a measurement of the mark then is a sector for the
 //! present position, and of these sectors all but q meet.
@@ -34,7 +34,7 @@ const SPEED_M_S: f64 = 10.0;
 const PRIOR_M: f64 = 0.5;
 /// A measurement further off than so many standard deviations is an outlier.
 const OUTLIER_SIGMA: f64 = 2.0;
-const STATE_NOISE_SIGMA: f64 = 4.5;
+const STATE_NOISE_SIGMA: f64 = 5.0;
 const WINDOW: usize = 50;
 const TOLERATED: usize = 10;
 
