@@ -432,6 +432,22 @@ pub enum Sense {
     },
     /// The modem heard others at the stamp, so the ping that was booked for it was held back.
     Held,
+    /// The direction from which a ping arrived, by an ultra-short baseline array in the nose; comes with the ping that was heard
+    /// from `sender`, at the same stamp.
+    ///
+    /// From where the receiver is at the reception to where the emitter was at the emission. Where rays bend the azimuth still leads
+    /// there, the elevation is the apparent one: that of the sound as it comes in, after its bounces.
+    Bearing {
+        /// Who emitted the ping.
+        sender: AuvId,
+        /// Counter-clockwise from the nose, in the horizontal plane, in rad; may leave (-pi, pi] by its error.
+        azimuth_rad: Measured,
+        /// Positive upwards from the horizontal plane, in rad, if the array has a vertical baseline.
+        elevation_rad: Option<Measured>,
+        /// The own heading at the arrival, by the array's own compass: what the azimuth is counted from, counter-clockwise from
+        /// east, in rad.
+        heading_rad: Measured,
+    },
 }
 
 /// What an AUV answers to one [`Sensed`].

@@ -100,6 +100,7 @@ fn example(key: &str) -> String {
         "ping_period_s" => "1",
         "ping_phase_s" => "0.5",
         "timestamp_error_s" => "1e-5",
+        "bearing_error_rad" => "0.1",
         "frame_bytes" => "64",
         "addresses" => "16",
         "source_level_db" => "185",

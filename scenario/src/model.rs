@@ -391,6 +391,8 @@ pub struct Modem {
     pub access: MediumAccess,
     /// Error of an arrival's timestamp in seconds.
     pub timestamp_error_s: f64,
+    /// Error of the direction from which a ping arrives, in rad; `None` for a modem that measures none.
+    pub bearing_error_rad: Option<f64>,
     /// Bytes one ping may have.
     pub frame_bytes: u16,
     /// What it does to sound at level `sea`; `None` for one that works at level `ideal` only.

@@ -168,7 +168,7 @@ impl Ekf {
                     ranging::listen(&mut self.filter, &emitter, &arrival, &self.sound, (gate_sigma, fusion));
                 if passed { Taken::Used } else { Taken::Rejected }
             }
-            Sense::Inertial { .. } | Sense::Held => Taken::Ignored,
+            Sense::Inertial { .. } | Sense::Bearing { .. } | Sense::Held => Taken::Ignored,
         }
     }
 

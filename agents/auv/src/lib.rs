@@ -15,14 +15,19 @@
 //! | `current.rs` | the current, as a Doppler velocity log sees it |
 //! | `odometry.rs` | what it did from any remembered moment until now |
 //! | `history.rs` | the tube that is remembered |
+//! | `offline/` | all trajectories of a run at once, from its record |
 //! | `controller/` | hold, circle, waypoints, reynolds |
 //! | `neighbours.rs` | who is around |
 //! | `medium_access/` | when to ping |
 //! | `modem.rs` | what to say |
+//! | `relative.rs` | where the neighbours are, seen from here |
 //! | `rings.rs` | pings as rings around the present position |
+//! | `together.rs` | all rings at once |
+//! | `beacons/` | one vehicle and a few beacons, from the files of a real mission |
 //! | `sabotage.rs` | broken promises for tests of the check |
 
 mod auv;
+pub mod beacons;
 mod bounds;
 pub mod controller;
 pub mod current;
@@ -37,9 +42,12 @@ pub mod neighbours;
 #[cfg(test)]
 mod newborn;
 pub mod odometry;
+pub mod offline;
+pub mod relative;
 pub mod rings;
 mod sabotage;
 pub mod state;
+pub mod together;
 pub mod tube_estimator;
 
 pub use auv::Auv;

@@ -70,8 +70,8 @@ pub struct Segment {
     pub acceleration_m_s2: Vec3,
     water_velocity_m_s: Vec3,
     attitude: Attitude,
-    /// Attitude and velocity through the water at the next knot, unless a setpoint takes effect before.
-    planned: (SimTime, Attitude, Vec3),
+    /// The next knot, unless a setpoint takes effect before.
+    planned_end: SimTime,
 }
 
 impl Segment {
@@ -82,7 +82,7 @@ impl Segment {
 
     /// Seconds from the start to the next knot, whether or not a setpoint ends the stretch before.
     pub fn planned_length_s(&self) -> f64 {
-        self.elapsed_s(self.planned.0)
+        self.elapsed_s(self.planned_end)
     }
 
     fn elapsed_s(&self, t: SimTime) -> f64 {
@@ -123,6 +123,10 @@ pub struct Body {
     setpoints: VecDeque<(SimTime, Vec3)>,
     /// What is remembered, the last one reaching beyond what is integrated so far.
     segments: VecDeque<Segment>,
+    /// Number of the knot at or before the start of the first of them.
+    first_knot: i64,
+    /// Attitude and velocity through the water at the end that is planned for the last one.
+    planned: (Attitude, Vec3),
     shift: Option<SimTime>,
 }
 
@@ -147,6 +151,8 @@ impl Body {
             goal: attitude,
             setpoints: VecDeque::new(),
             segments: VecDeque::new(),
+            first_knot: 0,
+            planned: (attitude, Vec3::zeros()),
             shift: None,
         };
         body.begin(SimTime::ZERO, position_m, attitude, attitude.velocity_m_s());
@@ -193,8 +199,8 @@ impl Body {
                 self.shift = None;
                 position_m.x += 1.0;
             }
-            let (planned_end, attitude, velocity_m_s) = last.planned;
-            if last.end == planned_end {
+            if last.end == last.planned_end {
+                let (attitude, velocity_m_s) = self.planned;
                 self.begin(last.end, position_m, attitude, velocity_m_s);
             } else {
                 let pose = pose_at(&last, last.end);
@@ -205,8 +211,13 @@ impl Body {
 
     /// Forgets motion that ended before `t`; it will not be asked again.
     pub fn forget_before(&mut self, t: SimTime) {
-        while self.segments.len() > 1 && self.segments[0].end < t {
-            self.segments.pop_front();
+        let mut forgotten = 0;
+        while forgotten + 1 < self.segments.len() && self.segments[forgotten].end < t {
+            forgotten += 1;
+        }
+        if forgotten > 0 {
+            self.segments.drain(..forgotten);
+            self.first_knot = self.segments[0].start.ns().div_euclid(self.knot_ns);
         }
     }
 
@@ -227,14 +238,24 @@ impl Body {
         segment.ground_velocity_m_s + segment.acceleration_m_s2 * segment.elapsed_s(t)
     }
 
-    /// The stretches that are remembered, in order.
-    pub fn segments(&self) -> impl Iterator<Item = &Segment> {
-        self.segments.iter()
+    /// The stretch that holds `t` and all later ones, in order.
+    pub fn segments_from(&self, t: SimTime) -> impl Iterator<Item = &Segment> {
+        self.segments.range(self.index_at(t)..)
     }
 
     fn segment_at(&self, t: SimTime) -> &Segment {
-        let after = self.segments.partition_point(|segment| segment.start <= t);
-        &self.segments[after.saturating_sub(1)]
+        &self.segments[self.index_at(t)]
+    }
+
+    /// Found from the number of knots since the first stretch: every knot begins one, and setpoints begin few more.
+    fn index_at(&self, t: SimTime) -> usize {
+        let last = self.segments.len() - 1;
+        let knots = t.ns().div_euclid(self.knot_ns) - self.first_knot;
+        let mut index = last.min(knots.max(0) as usize);
+        while index < last && self.segments[index].end <= t {
+            index += 1;
+        }
+        index
     }
 
     /// Starts a stretch at `start`, up to the next knot or setpoint.
@@ -265,8 +286,9 @@ impl Body {
             acceleration_m_s2,
             water_velocity_m_s,
             attitude,
-            planned: (planned_end, next, next_velocity_m_s),
+            planned_end,
         });
+        self.planned = (next, next_velocity_m_s);
     }
 
     /// The attitude that a desired velocity asks for, within what the kind can hold.

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Entry, Truth, Violation, What};
 use shoal_bus::codec::CodecError;
 use shoal_bus::lockstep::{Answers, Batch, Loss};
-use shoal_bus::message::{Acted, AuvId, Born, Estimator, Sensed, box_width};
+use shoal_bus::message::{Acted, AuvId, Born, Estimator, Event, Sensed, box_width};
 use shoal_bus::ping::{Frame, Payload};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
@@ -73,6 +73,7 @@ pub struct Channel {
     vehicles: Vec<Vehicle>,
     medium: Medium,
     grid: Grid,
+    /// Where all vehicles were when the window began.
     places_m: Vec<Vec3>,
     told: Vec<Told>,
     fastest_m_s: f64,
@@ -80,6 +81,8 @@ pub struct Channel {
     accepted: SimTime,
     happened: Vec<Entry>,
     chronicled: Vec<Entry>,
+    /// Memory of events that were chronicled, to be written anew.
+    spare: Vec<Vec<Event>>,
     flock: Flock,
     tally: Tally,
     digest: Digest,
@@ -120,6 +123,7 @@ impl Channel {
             accepted: SimTime::ZERO,
             happened: Vec::new(),
             chronicled: Vec::new(),
+            spare: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
         })
@@ -163,9 +167,11 @@ impl Channel {
         if window_ns > lookahead_ns {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
+        self.places_m.clear();
         for vehicle in &mut self.vehicles {
             vehicle.forget_before(self.now);
             vehicle.body.integrate(to);
+            self.places_m.push(vehicle.body.position_at(self.now));
         }
         self.emit(to);
         self.arrive(to);
@@ -190,15 +196,20 @@ impl Channel {
             self.lose(loss);
         }
         self.accepted = self.now;
-        self.happened = std::mem::take(&mut self.tally.window);
+        // Buffers go round: fresh ones would cost more than what is written into them.
+        self.happened.clear();
+        std::mem::swap(&mut self.happened, &mut self.tally.window);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, apart from
     /// [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
-        self.chronicled.clear();
-        self.chronicled.append(&mut self.happened);
-        self.chronicled.sort_by_key(canonical_order);
+        self.spare.extend(self.chronicled.drain(..).filter_map(|entry| match entry.what {
+            What::Sensed(sensed) => Some(sensed.events),
+            _ => None,
+        }));
+        std::mem::swap(&mut self.chronicled, &mut self.happened);
+        self.chronicled.sort_by_cached_key(canonical_order);
         self.digest.update(&self.chronicled)?;
         Ok(&self.chronicled)
     }
@@ -236,11 +247,14 @@ impl Channel {
         if leaving.is_empty() {
             return;
         }
-        leaving.sort_by_key(|&(at, auv, _)| (at, auv));
-        let start = self.now;
-        self.places_m.clear();
-        self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(start)));
         self.grid.sort(&self.places_m, self.medium.farthest_m());
+        if leaving.iter().any(|(_, _, planned)| planned.listen_ns > 0) {
+            // What a modem hears decides whether it emits, so what came before has to be known.
+            leaving.sort_by_key(|&(at, auv, _)| (at, auv));
+        } else {
+            // Otherwise only an emitter's own order counts, and neighbours in space share neighbours in memory.
+            leaving.sort_by_key(|&(at, auv, _)| (self.grid.cell_of(auv.0 as usize), auv, at));
+        }
         for (at, from, planned) in leaving {
             self.emit_one(at, from, planned);
         }
@@ -309,8 +323,9 @@ impl Channel {
     fn arrive(&mut self, to: SimTime) {
         let mut told = std::mem::take(&mut self.told);
         self.medium.arrive(to, &mut self.vehicles, &mut told);
-        told.sort_by_key(|told| (told.at, told.to, told.wavefront.from, told.wavefront.sequence));
-        for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
+        // Receivers share nothing, so that each takes all that is its own at once.
+        told.sort_by_cached_key(|told| (told.to, told.at, told.wavefront.from, told.wavefront.sequence));
+        for Told { at, to, wavefront, mut fate, stamp, incidence } in told.drain(..) {
             let receiver = &mut self.vehicles[to.0 as usize];
             let (from, sequence) = (wavefront.from, wavefront.sequence);
             match fate {
@@ -321,7 +336,7 @@ impl Channel {
                     if outlier || wavefront.is_false {
                         receiver.expose(at);
                     }
-                    receiver.hear(at, stamp, from.0, &wavefront.frame);
+                    receiver.hear(at, stamp, from, &wavefront.frame, incidence.as_ref());
                 }
                 _ => {}
             }
@@ -347,7 +362,9 @@ impl Channel {
                     pitch_rad: tick.pose.attitude.pitch_rad,
                 };
                 self.tally.happened(tick.at, auv, What::Truth(truth));
-                self.tally.happened(tick.at, auv, What::Sensed(sensed.clone()));
+                let mut events = self.spare.pop().unwrap_or_default();
+                events.clone_from(&sensed.events);
+                self.tally.happened(tick.at, auv, What::Sensed(Sensed { events, ..sensed }));
                 items.push(sensed);
             }
             if !items.is_empty() {
@@ -381,7 +398,6 @@ impl Channel {
         let velocity_m_s = Vector3::from(acted.setpoint.velocity_m_s);
         vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
         let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
-        let between_offset_s = vehicle.clock.offset_s(tick.between);
         let report = &acted.report;
         if promises(&vehicle.born) {
             let at_tick = Check::of(Enclosure::Report)
@@ -390,7 +406,7 @@ impl Channel {
                 .violation();
             let between_ticks = Check::of(Enclosure::Slice)
                 .position(&report.slice.position_m, &tick.between_position_m)
-                .time(&report.slice.clock_offset_s, between_offset_s)
+                .time(&report.slice.clock_offset_s, tick.between_offset_s)
                 .violation();
             let exposed = vehicle.is_exposed_at(tick.at);
             self.tally.check(auv, tick.at, at_tick, exposed);

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `acoustics/` | the physics of sound |
 //! | `channel.rs` | windows, wakes, answers |
+//! | `bearing.rs` | directions from which pings arrive |
 //! | `birth.rs` | from scenario to newborn AUVs |
 //! | `vehicle.rs` | one AUV as the water knows it |
 //! | `water.rs` | what the water really is |
@@ -32,6 +33,7 @@
 
 mod accuracy;
 pub mod acoustics;
+pub mod bearing;
 pub mod birth;
 pub mod body;
 pub mod budget;
