@@ -17,6 +17,9 @@
 //!
 //! Everything measured is applied at the next tick, to the state as it was at its stamp: the mean less what was travelled since
 //! ([`trail`]). What odometry may have lost in between, fractions of a tick or the length of a packet, is neglected.
+//!
+//! What it takes for independent need not be: where errors keep to one side for a while, as worst-case noise does, it is
+//! overconfident.
 
 pub mod filter;
 pub mod ranging;
@@ -137,7 +140,18 @@ impl Ekf {
         }
         mean[OFFSET] += rate * length_s;
         transition[(OFFSET, RATE)] = length_s;
-        filter.predict(mean, &transition, noise);
+        // True time that the clock missed is time in which the body moved, too.
+        let mut noise = *noise;
+        let missed = noise[(OFFSET, OFFSET)];
+        for axis in 0..3 {
+            let moved = ground_m_s[axis] * missed;
+            noise[(POSITION + axis, OFFSET)] = moved;
+            noise[(OFFSET, POSITION + axis)] = moved;
+            for other in 0..3 {
+                noise[(POSITION + axis, POSITION + other)] += moved * ground_m_s[other];
+            }
+        }
+        filter.predict(mean, &transition, &noise);
         self.told.limit(&mut filter);
         filter
     }
