@@ -360,7 +360,7 @@ impl Observer {
         for index in (last + 1 - WINDOW..=last).rev() {
             carried.push(Interval::centred(self.measured[index][which], self.reach[which]) + since);
             let control = controls(index.saturating_sub(1))[control];
-            since = since + (Interval::centred(control, 0.0) + noise) * step_s;
+            since += (Interval::centred(control, 0.0) + noise) * step_s;
         }
         let found = relaxed_intersection(&carried, TOLERATED) & predicted;
         if found.is_empty() { (predicted, false) } else { (found, true) }
@@ -375,7 +375,7 @@ impl Observer {
         for index in (last + 1 - WINDOW..=last).rev() {
             let bearing = Interval::centred(self.measured[index][0], self.reach[0]) - self.heading_rad[index];
             sectors.push(Sector::of_viewers(mark_m, bearing));
-            mark_m = mark_m + self.moved_m[index - 1];
+            mark_m += self.moved_m[index - 1];
         }
         sectors
     }

@@ -116,13 +116,13 @@ impl Ekf {
 
     /// The velocity through the water at the tick: what the log says, or what it said last, worn by time.
     fn look_at_log(&self, sensed: &Sensed) -> Log {
-        let logs = sensed.events.iter().filter_map(|event| match event.sense {
+        let mut logs = sensed.events.iter().filter_map(|event| match event.sense {
             Sense::Inertial { heading_rad, pitch_rad, speed_m_s } => {
                 Some(Log::new(heading_rad, pitch_rad, speed_m_s))
             }
             _ => None,
         });
-        logs.last().unwrap_or_else(|| self.log.worn(&self.told, seconds(sensed.stamp - self.now)))
+        logs.next_back().unwrap_or_else(|| self.log.worn(&self.told, seconds(sensed.stamp - self.now)))
     }
 
     /// The filter `length_s` local seconds on, at the mean velocity `through_water_m_s`.
