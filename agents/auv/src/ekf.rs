@@ -3,7 +3,8 @@
 //! It lives in the same local time and is told the same bounds; where the tube takes a bound `b` for certain, it takes an error to
 //! be uniform in `[-b, b]`, with the variance `b²/3`, and to have nothing to do with any other. Its state is position, true minus
 //! local time, the rate of that, and the current: an error of the current lasts, so it must be a state of its own and
-//! cannot be noise. Rate and current walk at random, and never become less certain than what was told at birth.
+//! cannot be noise, and neither can the part of a rate that lasts. Both walk at random, slowly, and never become less certain than
+//! what was told at birth.
 //!
 //! | what | how |
 //! |---|---|
@@ -16,6 +17,9 @@
 //!
 //! Everything measured is applied at the next tick, to the state as it was at its stamp: the mean less what was travelled since
 //! ([`trail`]). What odometry may have lost in between, fractions of a tick or the length of a packet, is neglected.
+//!
+//! What it takes for independent need not be: where errors keep to one side for a while, as worst-case noise does, it is
+//! overconfident.
 
 pub mod filter;
 pub mod ranging;
@@ -37,9 +41,13 @@ use trail::Trail;
 
 /// Boxes reach so many standard deviations to either side.
 const REACH_SIGMA: f64 = 3.0;
-/// A rate, or a change of the current, keeps its sign so long: nobody tells, so this is a choice. In this time a rate may walk from
-/// anywhere in its bounds to anywhere else.
+/// A change of the current keeps its sign so long: nobody tells, so this is a choice.
 const MEMORY_S: f64 = 10.0;
+/// A rate is partly constant and partly wanders, and nobody tells which part is which; so all of its bound counts for either. What wanders
+/// keeps its sign so long ...
+const WANDER_S: f64 = 2.0;
+/// ... and what is constant may have become anything else in its bounds after so long.
+const AGEING_S: f64 = 1_000.0;
 /// The state noise stays the same so long at least: nobody tells either, and noise that changed at every tick would vanish for those
 /// that tick fast.
 const NOISE_S: f64 = 0.1;
@@ -108,13 +116,13 @@ impl Ekf {
 
     /// The velocity through the water at the tick: what the log says, or what it said last, worn by time.
     fn look_at_log(&self, sensed: &Sensed) -> Log {
-        let logs = sensed.events.iter().filter_map(|event| match event.sense {
+        let mut logs = sensed.events.iter().filter_map(|event| match event.sense {
             Sense::Inertial { heading_rad, pitch_rad, speed_m_s } => {
                 Some(Log::new(heading_rad, pitch_rad, speed_m_s))
             }
             _ => None,
         });
-        logs.last().unwrap_or_else(|| self.log.worn(&self.told, seconds(sensed.stamp - self.now)))
+        logs.next_back().unwrap_or_else(|| self.log.worn(&self.told, seconds(sensed.stamp - self.now)))
     }
 
     /// The filter `length_s` local seconds on, at the mean velocity `through_water_m_s`.
@@ -132,7 +140,18 @@ impl Ekf {
         }
         mean[OFFSET] += rate * length_s;
         transition[(OFFSET, RATE)] = length_s;
-        filter.predict(mean, &transition, noise);
+        // True time that the clock missed is time in which the body moved, too.
+        let mut noise = *noise;
+        let missed = noise[(OFFSET, OFFSET)];
+        for axis in 0..3 {
+            let moved = ground_m_s[axis] * missed;
+            noise[(POSITION + axis, OFFSET)] = moved;
+            noise[(OFFSET, POSITION + axis)] = moved;
+            for other in 0..3 {
+                noise[(POSITION + axis, POSITION + other)] += moved * ground_m_s[other];
+            }
+        }
+        filter.predict(mean, &transition, &noise);
         self.told.limit(&mut filter);
         filter
     }
@@ -259,8 +278,9 @@ impl Told {
         let mut noise = Matrix::zeros();
         let position_m2 = log * (length_s * length_s);
         noise.fixed_view_mut::<3, 3>(POSITION, POSITION).copy_from(&position_m2);
-        // A walk that has gone through its bounds after the memory: its steps add up to twice the variance of what was told.
-        noise[(RATE, RATE)] = 2.0 * self.rate * (length_s / MEMORY_S).min(1.0);
+        // Whoever keeps its sign for T adds up, later on, to `2 T t` times its variance.
+        noise[(OFFSET, OFFSET)] = 2.0 * self.rate * WANDER_S * length_s;
+        noise[(RATE, RATE)] = 2.0 * self.rate * length_s / AGEING_S;
         for axis in 0..3 {
             noise[(POSITION + axis, POSITION + axis)] +=
                 self.disturbance[axis] * length_s * length_s.max(NOISE_S) + half_width_variance(bend_m);
@@ -273,9 +293,9 @@ impl Told {
 
     /// What was told of rate and current holds at any time.
     fn limit(&self, filter: &mut Filter) {
-        filter.limit(RATE, 0.0, self.rate);
-        for (axis, &(mean, variance)) in self.current_m_s.iter().enumerate() {
-            filter.limit(CURRENT + axis, mean, variance);
+        filter.limit(RATE, self.rate);
+        for (axis, &(_, variance)) in self.current_m_s.iter().enumerate() {
+            filter.limit(CURRENT + axis, variance);
         }
     }
 }

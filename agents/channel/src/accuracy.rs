@@ -105,10 +105,8 @@ fn finite(of: f64) -> f64 {
 pub fn normalized_error_squared(gaussian: &Gaussian, truth: &[f64; 4]) -> Option<f64> {
     let mut upper = gaussian.covariance.iter();
     let mut lower = [[0.0; 4]; 4];
-    for row in 0..4 {
-        for column in row..4 {
-            lower[column][row] = *upper.next()?;
-        }
+    for (row, column) in (0..4).flat_map(|row| (row..4).map(move |column| (row, column))) {
+        lower[column][row] = *upper.next()?;
     }
     let mut solved = [0.0; 4];
     let mut squares = 0.0;

@@ -38,8 +38,9 @@ pub(super) fn agreed(
     settings: &TubeSettings,
 ) -> Option<IntervalBox<2>> {
     let rings = rings(pose, reach, mission, course, settings);
-    let least = (0..=settings.outliers)
-        .find(|&outliers| Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0]).is_some())?;
+    let least = (0..=settings.outliers).find(|&outliers| {
+        Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0]).is_some()
+    })?;
     Some(Relaxed::new(&rings, least.saturating_add(settings.margin), settings).hull(position_m))
 }
 

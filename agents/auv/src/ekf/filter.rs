@@ -68,16 +68,14 @@ impl Filter {
         true
     }
 
-    /// Never knows less of a coordinate than it was told: a mean and a variance that hold at any time. A coordinate that has become
-    /// more uncertain is measured to be what was told, with the variance that brings its own down to it.
-    pub fn limit(&mut self, index: usize, mean: f64, variance: f64) {
-        let excess = self.covariance[(index, index)] - variance;
-        if excess > 0.0 && variance > 0.0 {
-            let mut row = Vector::zeros();
-            row[index] = 1.0;
-            let innovation = mean - self.mean[index];
-            let variance = variance * self.covariance[(index, index)] / excess;
-            self.update(&Measurement { row, innovation, variance });
+    /// Never knows less of a coordinate than it was told, a variance that holds at any time: what has become more uncertain is
+    /// scaled down to it, all correlations kept.
+    pub fn limit(&mut self, index: usize, variance: f64) {
+        let own = self.covariance[(index, index)];
+        if own > variance {
+            let scale = (variance / own).sqrt();
+            self.covariance.row_mut(index).scale_mut(scale);
+            self.covariance.column_mut(index).scale_mut(scale);
         }
     }
 }

@@ -10,13 +10,11 @@
 //!
 //! **Fusion.** What the emitter believes may come from what this AUV told before, or both from a third. `independent` ignores that.
 //! `covariance-intersection` holds for any correlation: with `0 < w < 1` the receiver's covariance is taken as `P / w` and the
-//! emitter's share of the measurement as `D / (1 - w)`, with the speed of sound, which is wrong for everyone alike; beside
-//! these stands the share R that is certainly new (Julier and Uhlmann, A
-//! Non-divergent Estimation Algorithm in the Presence of Unknown Correlations, 1997; the split form with R of the same authors'
-//! General Decentralized Data Fusion with Covariance Intersection, 2001). All of P counts as perhaps shared.
-//! The w that leaves the
-//! least mean square error of position and clock, in metres of sound, is searched for; where none leaves less than
-//! before, the ping says nothing.
+//! emitter's share of the measurement as `D / (1 - w)`, with the speed of sound, which is wrong for everyone alike;
+//! beside these stands the share R that is certainly new (Julier and Uhlmann, A Non-divergent Estimation Algorithm in the Presence of
+//! Unknown Correlations, 1997; the split form with R of the same authors' General Decentralized Data Fusion with Covariance
+//! Intersection, 2001). All of P counts as perhaps shared. The w that leaves the least mean square error of position and clock, in
+//! metres of sound, is searched for; where none leaves less than before, the ping says nothing.
 
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use shoal_bus::message::{Bounds, Fusion};
@@ -115,26 +113,26 @@ pub fn listen(
     (gate_sigma, fusion): (f64, Fusion),
 ) -> bool {
     let Some(range) = Range::new(filter, emitter, arrival, sound, fusion) else { return true };
-    let weight = match fusion {
-        Fusion::Independent => None,
-        Fusion::CovarianceIntersection => Some(best_weight(filter, &range, sound.speed_m_s)),
-    };
-    // Without a gain, what cannot be is still rejected: weighed as the gate would see it at its widest.
-    let (inflation, variance) = match weight {
-        None => (1.0, range.shared + range.new),
-        Some(weight) => {
-            let weight = weight.unwrap_or(0.5);
-            (1.0 / weight, range.shared / (1.0 - weight) + range.new)
-        }
-    };
-    let expected = filter.variance_along(&range.row) * inflation + variance;
+    let own = filter.variance_along(&range.row).max(0.0);
+    // Errors with an unknown correlation add up to no more than the square of the sum of their deviations: the least over w of what
+    // covariance intersection takes them for.
+    let expected = match fusion {
+        Fusion::Independent => own + range.shared,
+        Fusion::CovarianceIntersection => own + range.shared + 2.0 * (own * range.shared).sqrt(),
+    } + range.new;
     if range.innovation * range.innovation > gate_sigma * gate_sigma * expected {
         return false;
     }
-    if weight != Some(None) {
-        filter.covariance *= inflation;
-        filter.update(&Measurement { row: range.row, innovation: range.innovation, variance });
-    }
+    let (weight, shared) = match fusion {
+        Fusion::Independent => (1.0, range.shared),
+        Fusion::CovarianceIntersection => match best_weight(filter, &range, sound.speed_m_s) {
+            Some(weight) => (weight, range.shared / (1.0 - weight)),
+            None => return true,
+        },
+    };
+    filter.covariance /= weight;
+    let variance = shared + range.new;
+    filter.update(&Measurement { row: range.row, innovation: range.innovation, variance });
     true
 }
 

@@ -27,9 +27,8 @@ fn is_positive(triangle: &[f64; 10]) -> bool {
         }
         for row in pivot + 1..4 {
             let part = of[row][pivot] / of[pivot][pivot];
-            for column in pivot..4 {
-                of[row][column] -= part * of[pivot][column];
-            }
+            let above = of[pivot];
+            of[row].iter_mut().zip(above).for_each(|(entry, above)| *entry -= part * above);
         }
     }
     true
