@@ -19,6 +19,7 @@ const LIBRARY: &[LibraryEntry] = &[
     LibraryEntry { name: "surface-bounce", text: include_str!("../library/surface-bounce.toml") },
     LibraryEntry { name: "thermocline", text: include_str!("../library/thermocline.toml") },
     LibraryEntry { name: "crowded-band", text: include_str!("../library/crowded-band.toml") },
+    LibraryEntry { name: "sweep-16", text: include_str!("../library/sweep-16.toml") },
     LibraryEntry { name: "swarm-300", text: include_str!("../library/swarm-300.toml") },
     LibraryEntry { name: "swarm-1000", text: include_str!("../library/swarm-1000.toml") },
 ];

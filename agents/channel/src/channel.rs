@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Entry, Truth, Violation, What};
 use shoal_bus::codec::CodecError;
 use shoal_bus::lockstep::{Answers, Batch, Loss};
-use shoal_bus::message::{Acted, AuvId, Born, Event, Sensed, box_width};
+use shoal_bus::message::{Acted, Around, AuvId, Born, Event, Sensed, box_width};
 use shoal_bus::ping::{Frame, Ping};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
@@ -24,7 +24,7 @@ use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
 use crate::tally::Tally;
-use crate::vehicle::{Planned, Vehicle};
+use crate::vehicle::{Planned, Tick, Vehicle};
 use crate::water::Water;
 
 /// Why a run cannot go on.
@@ -422,6 +422,10 @@ impl Channel {
                 vehicle.plan(ping.clone());
             }
         }
+        for around in &acted.report.around {
+            let violation = check_around(around, &tick, &self.vehicles);
+            self.tally.check(auv, tick.at, violation, exposed);
+        }
         self.tally.happened(tick.at, auv, What::Acted(acted));
         Ok(())
     }
@@ -454,6 +458,15 @@ fn check_ping(
         }
         _ => (Some(check::nothing(Enclosure::Ping)), 0.0),
     }
+}
+
+/// Checks where an AUV sees a neighbour at its tick, which lies in the window just advanced.
+fn check_around(around: &Around, tick: &Tick, vehicles: &[Vehicle]) -> Option<Violation> {
+    let Some(neighbour) = vehicles.get(around.auv.0 as usize) else {
+        return Some(check::nothing(Enclosure::Around));
+    };
+    let apart_m = neighbour.body.position_at(tick.at) - tick.pose.position_m;
+    Check::of(Enclosure::Around).horizontal(&around.position_m, &apart_m).violation()
 }
 
 /// (true time, vehicle, kind, index): entries of one vehicle, kind and moment keep the order in which they were told, but

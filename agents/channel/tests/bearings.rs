@@ -82,6 +82,7 @@ fn answer(born: &Born, sensed: &Sensed) -> Acted {
             neighbours: 0,
             contractions: 0,
             rejected: 0,
+            around: Vec::new(),
             components: 1,
             gaussian: None,
         },
