@@ -91,6 +91,8 @@ pub enum Enclosure {
     Slice,
     /// A ping's payload, at its emission.
     Ping,
+    /// A neighbour in a report, at its tick.
+    Around,
     /// An enclosure that was reported empty where no fault was declared.
     Emptied,
 }
@@ -150,6 +152,7 @@ impl Enclosure {
             Self::Report => "report",
             Self::Slice => "slice",
             Self::Ping => "ping",
+            Self::Around => "neighbour",
             Self::Emptied => "emptied",
         }
     }

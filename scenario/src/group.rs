@@ -10,6 +10,7 @@ use crate::estimating::estimator;
 use crate::model::{AuvSabotage, Environment, Estimator, Group, Level, Modem};
 use crate::modem::{Surroundings as ModemSurroundings, in_seconds, modem, packet_arithmetic, packet_ns};
 use crate::reader::Table;
+use crate::relative::relative;
 use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS};
 use crate::start::start;
 use crate::steering::{Surroundings, controller};
@@ -51,6 +52,7 @@ pub(crate) fn group(
     let sensors = named.sensors.of_group(&table);
     let modem = modem(&table, &ModemSurroundings { environment, auvs });
     let estimator = estimator(&table);
+    let relative = relative(&table, modem.as_ref());
     let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });
     let start = start(&table, environment, kind.as_ref(), controller.as_ref(), count);
     let sabotage = table.choice("sabotage", SABOTAGES, None);
@@ -75,6 +77,7 @@ pub(crate) fn group(
             control_period_ns: control_period_ns?,
             reaction_ns: reaction_ns?,
             estimator: estimator?,
+            relative: relative?,
             controller: controller?,
             sabotage: sabotage?,
         })

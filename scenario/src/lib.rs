@@ -102,6 +102,10 @@
 //! | `outliers.margin` | | none | assume the fewest that leave something, and so many more |
 //! | `estimator.gate_sigma` | | 3 | `"ekf"`: an innovation of more standard deviations is rejected; `false` to believe everything |
 //! | `estimator.fusion` | | `"independent"` | `"ekf"`: what others believe is `"independent"`, or taken in by `"covariance-intersection"` |
+//! | `relative` | | `false` | follows its neighbours in its own frame, as a table: |
+//! | `relative.measures` | | `"range-and-bearing"` | by what pings tell: that, `"bearing"` or `"range"`; bearings need `bearing_error_rad` |
+//! | `relative.exchanged` | | `true` | whether it believes the velocities that pings tell; else a neighbour may do all that its bounds allow |
+//! | `relative.remembered` | | 16 | so many of a neighbour's last pings count together |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
 //! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
 //! | **`[sensors.NAME]`, `[group.sensors]`** | | | sensors of one's own |
@@ -187,6 +191,7 @@ mod overrides;
 mod packet;
 pub mod presets;
 mod reader;
+mod relative;
 mod sea;
 mod sensing;
 mod sound_speed;

@@ -21,6 +21,7 @@ const LIBRARY: &[LibraryEntry] = &[
     LibraryEntry { name: "thermocline", text: include_str!("../library/thermocline.toml") },
     LibraryEntry { name: "crowded-band", text: include_str!("../library/crowded-band.toml") },
     LibraryEntry { name: "data-incest", text: include_str!("../library/data-incest.toml") },
+    LibraryEntry { name: "sweep-16", text: include_str!("../library/sweep-16.toml") },
     LibraryEntry { name: "swarm-300", text: include_str!("../library/swarm-300.toml") },
     LibraryEntry { name: "swarm-1000", text: include_str!("../library/swarm-1000.toml") },
 ];

@@ -307,6 +307,8 @@ pub struct Group {
     pub reaction_ns: i64,
     /// How they estimate.
     pub estimator: Estimator,
+    /// How they enclose their neighbours in their own frames, if they do.
+    pub relative: Option<Relative>,
     /// How they steer.
     pub controller: Controller,
     /// A promise to break: a test of the checker.
@@ -365,6 +367,29 @@ pub struct Dvl {
     pub altitude_max_m: f64,
     /// Error per axis of the body, in m/s.
     pub velocity_error_m_s: f64,
+}
+
+/// How AUVs enclose their neighbours in their own frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Relative {
+    /// What they take from a ping.
+    pub measures: Measures,
+    /// Whether they believe the velocities that pings tell.
+    pub exchanged: bool,
+    /// So many of a neighbour's last pings count together.
+    pub remembered: u16,
+}
+
+/// What a ping tells of where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measures {
+    /// Range and bearing.
+    RangeAndBearing,
+    /// Bearing alone.
+    Bearing,
+    /// Range alone.
+    Range,
 }
 
 /// A satellite receiver.

@@ -2,7 +2,8 @@
 
 use shoal_bus::lockstep::Mind;
 use shoal_bus::message::{
-    Acted, Born, Culprit, Emptied, Estimator as EstimatorOrders, Report, Sabotage, Sensed, Setpoint, Slice,
+    Acted, Around, Born, Culprit, Emptied, Estimator as EstimatorOrders, Report, Sabotage, Sensed, Setpoint,
+    Slice,
 };
 use shoal_bus::time::NS_PER_S;
 
@@ -12,6 +13,7 @@ use crate::dead_reckoning::DeadReckoning;
 use crate::ekf::Ekf;
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::modem::Modem;
+use crate::relative::Neighbourhood;
 use crate::sabotage;
 use crate::state::State;
 use crate::tube_estimator::TubeEstimator;
@@ -21,6 +23,7 @@ pub struct Auv {
     born: Born,
     estimator: Box<dyn Estimator>,
     controller: Box<dyn Controller>,
+    neighbourhood: Option<Neighbourhood>,
     modem: Modem,
     lead_s: f64,
 }
@@ -39,6 +42,7 @@ impl Auv {
         Self {
             estimator,
             controller: controller::ordered(&orders.controller, &born.prior_position_m, &orders.area_m),
+            neighbourhood: orders.relative.map(|relative| Neighbourhood::new(&believed, relative)),
             modem: Modem::new(born),
             lead_s: lead_ns as f64 / NS_PER_S as f64,
             born: born.clone(),
@@ -54,6 +58,12 @@ impl Auv {
             velocity_m_s: now.velocity_m_s.mid(),
             lead_s: self.lead_s,
         }
+    }
+
+    /// The neighbours that it follows.
+    fn around(&self, state: &State) -> Vec<Around> {
+        let around = self.neighbourhood.iter().flat_map(|neighbourhood| neighbourhood.around(state));
+        around.map(|(auv, at_m)| Around { auv, position_m: at_m.sides().map(bounds) }).collect()
     }
 
     /// The estimate as it is reported; clock offsets are told against stamps, which may be off by the stamp's tolerance.
@@ -73,6 +83,7 @@ impl Auv {
             },
             emptied,
             neighbours,
+            around: self.around(&estimate.state),
             contractions: estimate.contractions,
             rejected: estimate.rejected,
             components: estimate.components,
@@ -84,6 +95,9 @@ impl Auv {
 impl Mind for Auv {
     fn step(&mut self, sensed: &Sensed) -> Acted {
         let estimate = self.estimator.update(sensed);
+        if let Some(neighbourhood) = &mut self.neighbourhood {
+            neighbourhood.update(sensed, &estimate.state);
+        }
         let now = self.estimator.predict(sensed.stamp);
         let steering = self.controller.steer(sensed, &self.belief(&estimate, &now));
         let through_water_m_s =

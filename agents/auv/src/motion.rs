@@ -78,6 +78,11 @@ impl Motion {
         known_m_s.inflate(self.slope() * self.longest(elapsed_s)).intersection(&self.any_velocity())
     }
 
+    /// The current anywhere, in m/s.
+    pub fn any_current(&self) -> IntervalBox<3> {
+        self.current_m_s
+    }
+
     /// Velocity over ground, in m/s, from that through the water and the current.
     pub fn over_ground(&self, velocity_m_s: &IntervalBox<3>, current_m_s: &IntervalBox<3>) -> IntervalBox<3> {
         *velocity_m_s + (*current_m_s + self.disturbance_m_s)

@@ -10,10 +10,16 @@
 //! East and north from the body, as long as it has a compass: only moved along with the body, never turned, so no turn of the body
 //! widens what is known. The error of the compass enters with each bearing. [`ahead_and_port_m`] turns a box into the axes of the body.
 //!
+//! # In a run
+//! A mind whose [orders](shoal_bus::message::Orders::relative) say so keeps a [`Neighbourhood`], and the channel holds what it reports
+//! against the truth.
+//!
 //! # What is guaranteed
 //! The relative position is inside, as long as every interval given holds its truth. Sightings that contradict each other are no
 //! silent loss: [`Track::see`] says so and begins again from the last one.
 
+mod fellow;
+mod neighbourhood;
 mod sighting;
 #[cfg(test)]
 mod tests;
@@ -21,6 +27,8 @@ mod track;
 
 use shoal_interval::{Interval, IntervalBox};
 
+pub use fellow::Fellow;
+pub use neighbourhood::Neighbourhood;
 pub use sighting::{Sighting, horizontal_m};
 pub use track::Track;
 

@@ -311,7 +311,7 @@ fn drift_at(stamp: LocalTime, over_ground_m_s: &[Measured; 3], sensed: &Sensed) 
 }
 
 /// `R(heading, pitch) (speed, 0, 0)`, in m/s.
-fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> IntervalBox<3> {
+pub(crate) fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> IntervalBox<3> {
     let (sin_heading, cos_heading) = measured(heading_rad).sin_cos();
     let (sin_pitch, cos_pitch) = measured(pitch_rad).sin_cos();
     let speed = measured(speed_m_s);
@@ -331,4 +331,4 @@ pub(crate) fn seconds(ns: i64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

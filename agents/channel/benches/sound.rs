@@ -178,6 +178,7 @@ impl Mind {
                 neighbours: 0,
                 contractions: 0,
                 rejected: 0,
+                around: Vec::new(),
                 components: 1,
                 gaussian: None,
             },

@@ -163,6 +163,7 @@ fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) 
             AuvSabotage::LyingPing => Sabotage::LyingPing,
             AuvSabotage::EmptySet => Sabotage::EmptySet,
         }),
+        relative: group.relative.map(|of| bounds::relative(scenario, &of)),
     }
 }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Entry, Truth, Violation, What};
 use shoal_bus::codec::CodecError;
 use shoal_bus::lockstep::{Answers, Batch, Loss};
-use shoal_bus::message::{Acted, AuvId, Born, Estimator, Event, Sensed, box_width};
+use shoal_bus::message::{Acted, Around, AuvId, Born, Estimator, Event, Sensed, box_width};
 use shoal_bus::ping::{Frame, Payload};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
@@ -24,7 +24,7 @@ use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
 use crate::tally::Tally;
-use crate::vehicle::{Planned, Vehicle};
+use crate::vehicle::{Planned, Tick, Vehicle};
 use crate::water::Water;
 
 /// Why a run cannot go on.
@@ -399,7 +399,8 @@ impl Channel {
         vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
         let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
         let report = &acted.report;
-        if promises(&vehicle.born) {
+        let (promises, exposed) = (promises(&vehicle.born), vehicle.is_exposed_at(tick.at));
+        if promises {
             let at_tick = Check::of(Enclosure::Report)
                 .position(&report.position_m, &tick.pose.position_m)
                 .time(&report.clock_offset_s, offset_s)
@@ -408,7 +409,6 @@ impl Channel {
                 .position(&report.slice.position_m, &tick.between_position_m)
                 .time(&report.slice.clock_offset_s, tick.between_offset_s)
                 .violation();
-            let exposed = vehicle.is_exposed_at(tick.at);
             self.tally.check(auv, tick.at, at_tick, exposed);
             self.tally.check(auv, tick.at, between_ticks, exposed);
             if report.emptied.is_some() {
@@ -425,6 +425,10 @@ impl Channel {
             } else {
                 vehicle.plan(ping.clone());
             }
+        }
+        for around in report.around.iter().filter(|_| promises) {
+            let violation = check_around(around, &tick, &self.vehicles);
+            self.tally.check(auv, tick.at, violation, exposed);
         }
         self.tally.happened(tick.at, auv, What::Acted(acted));
         Ok(())
@@ -469,6 +473,15 @@ fn check_ping(emitter: &Born, at: SimTime, frame: &Frame, position_m: &Vec3, vel
         _ => (true, Some(check::nothing(Enclosure::Ping)), 0.0),
     };
     Checked { is_promise, violation, box_width_m }
+}
+
+/// Checks where an AUV sees a neighbour at its tick, which lies in the window just advanced.
+fn check_around(around: &Around, tick: &Tick, vehicles: &[Vehicle]) -> Option<Violation> {
+    let Some(neighbour) = vehicles.get(around.auv.0 as usize) else {
+        return Some(check::nothing(Enclosure::Around));
+    };
+    let apart_m = neighbour.body.position_at(tick.at) - tick.pose.position_m;
+    Check::of(Enclosure::Around).horizontal(&around.position_m, &apart_m).violation()
 }
 
 /// (true time, vehicle, kind, index): entries of one vehicle, kind and moment keep the order in which they were told, but

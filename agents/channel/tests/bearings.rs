@@ -3,7 +3,7 @@
 use shoal_bus::chronicle::What;
 use shoal_bus::lockstep::{Answers, Batch};
 use shoal_bus::message::{
-    Acted, AuvId, Born, Bounds, Measured, PlannedPing, Report, Sense, Sensed, Setpoint, Slice,
+    Acted, Around, AuvId, Born, Bounds, Measured, PlannedPing, Report, Sense, Sensed, Setpoint, Slice,
 };
 use shoal_bus::ping::Ping;
 use shoal_bus::time::SimTime;
@@ -54,7 +54,7 @@ start = {{ points_m = [[60, -80, -30]], heading_rad = 0, speed_m_s = 1, box_widt
 }
 
 /// An answer that steers straight on and, at every 300th tick of the second AUV, pings.
-fn answer(born: &Born, sensed: &Sensed) -> Acted {
+fn answer(born: &Born, sensed: &Sensed, around: &[Around]) -> Acted {
     let none = Bounds::new(-1e9, 1e9);
     let ping = Ping {
         sender: born.auv,
@@ -82,6 +82,7 @@ fn answer(born: &Born, sensed: &Sensed) -> Acted {
             neighbours: 0,
             contractions: 0,
             rejected: 0,
+            around: around.to_vec(),
             components: 1,
             gaussian: None,
         },
@@ -104,7 +105,7 @@ fn run(level: &str, modem: &str, noise: &str) -> (usize, f64) {
             .into_iter()
             .map(|batch| {
                 let born = &born[batch.auv.0 as usize];
-                let items = batch.items.iter().map(|sensed| answer(born, sensed)).collect();
+                let items = batch.items.iter().map(|sensed| answer(born, sensed, &[])).collect();
                 Batch { auv: batch.auv, items }
             })
             .collect();
@@ -170,4 +171,31 @@ fn every_ping_heard_comes_from_where_its_emitter_was() {
         let (told_again, smaller_rad) = run(level, modem, "uniform");
         assert!(told_again >= 5 && smaller_rad < ERROR_RAD + BETWEEN_TICKS_RAD);
     }
+}
+
+#[test]
+fn a_neighbour_that_is_elsewhere_is_a_violation() {
+    let scenario = shoal_scenario::parse("two", &water("ideal", "ideal", "uniform")).unwrap();
+    let violations = |auv: u32, east_m: [f64; 2]| {
+        let mut channel = Channel::new(&scenario).unwrap();
+        let born = channel.born();
+        let position_m = [Bounds::new(east_m[0], east_m[1]), Bounds::new(-90.0, -70.0)];
+        let around = [Around { auv: AuvId(auv), position_m }];
+        let acted = channel
+            .advance(SimTime::from_ns(50_000_000))
+            .unwrap()
+            .into_iter()
+            .filter(|batch| batch.auv == AuvId(0))
+            .map(|batch| {
+                let items = batch.items.iter().map(|sensed| answer(&born[0], sensed, &around)).collect();
+                Batch { auv: batch.auv, items }
+            })
+            .collect();
+        channel.accept(Answers { acted, losses: Vec::new() });
+        channel.summary().containment.violations
+    };
+    // It starts 60 m east and 80 m south of the other.
+    assert_eq!(violations(1, [50.0, 70.0]), 0);
+    assert!(violations(1, [61.0, 70.0]) >= 4);
+    assert!(violations(9, [50.0, 70.0]) >= 4, "nobody is AUV 9");
 }

@@ -107,6 +107,9 @@ pub struct ReportRow {
     pub rejected: u16,
     /// Separate parts of the set.
     pub components: u16,
+    /// The neighbours that it follows in its own frame.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub around: Vec<AroundRow>,
     /// What a Kalman filter believes.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub gaussian: Option<GaussianRow>,
@@ -135,6 +138,11 @@ impl ReportRow {
             contractions: report.contractions,
             rejected: report.rejected,
             components: report.components,
+            around: report
+                .around
+                .iter()
+                .map(|around| AroundRow { auv: around.auv, position_m: around.position_m.map(pair) })
+                .collect(),
             gaussian: report.gaussian.map(|gaussian| GaussianRow {
                 mean: gaussian.mean.map(Real),
                 covariance: gaussian.covariance.map(Real),
@@ -168,6 +176,15 @@ pub struct OfflineRow {
     pub position_m: [Pair; 3],
     /// Encloses true time minus local time likewise, in seconds.
     pub clock_offset_s: Pair,
+}
+
+/// A neighbour as it is seen from an AUV.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AroundRow {
+    /// Which neighbour.
+    pub auv: AuvId,
+    /// Encloses its position less that of the AUV at the tick, in metres: east and north.
+    pub position_m: [Pair; 2],
 }
 
 /// A Gaussian over position and clock.

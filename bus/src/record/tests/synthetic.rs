@@ -2,8 +2,8 @@
 
 use crate::chronicle::{Coordinate, Enclosure, Entry, Truth, Violation, What};
 use crate::message::{
-    Acted, AuvId, Bounds, Culprit, Emptied, Event, Gaussian, Measured, PlannedPing, Report, Sense, Sensed,
-    Setpoint, Slice,
+    Acted, Around, AuvId, Bounds, Culprit, Emptied, Event, Gaussian, Measured, PlannedPing, Report, Sense,
+    Sensed, Setpoint, Slice,
 };
 use crate::ping::Frame;
 use crate::record::{RecordHeader, RecordWriter, RecordedAuv};
@@ -148,6 +148,10 @@ fn tick_of(auv: AuvId, at: SimTime, tick: u64, noise: &mut Noise, entries: &mut 
             contractions: 3,
             rejected: 1,
             components: 2,
+            around: vec![Around {
+                auv: AuvId(1),
+                position_m: [Bounds::new(-3.0, 4.0), Bounds::new(5.0, 6.5)],
+            }],
             gaussian: (tick % 2 == 0).then_some(Gaussian { mean: [0.5; 4], covariance: [0.25; 10] }),
         },
     };
