@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::localize::LocalizeArgs;
 use crate::plot::Kind;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
@@ -49,6 +50,12 @@ pub enum Command {
         rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
     )]
     Plot(PlotArgs),
+    /// Find out where a vehicle was from odometry and ranges in files
+    #[command(
+        after_help = "Examples:\n  shoal localize --dataset goats02 -o track.svg\n  \
+        shoal localize --dataset goats02 --estimator ekf --gate 0 --json\n  shoal localize --dataset goats02 --start unknown"
+    )]
+    Localize(LocalizeArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {
