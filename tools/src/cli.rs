@@ -51,10 +51,8 @@ pub enum Command {
     )]
     Plot(PlotArgs),
     /// Find out where a vehicle was from odometry and ranges in files
-    #[command(
-        after_help = "Examples:\n  shoal localize --dataset goats02 -o track.svg\n  \
-        shoal localize --dataset goats02 --estimator ekf --gate 0 --json\n  shoal localize --dataset goats02 --start unknown"
-    )]
+    #[command(after_help = "Examples:\n  shoal localize --dataset goats02 -o track.svg\n  \
+        shoal localize --dataset goats02 --estimator ekf --gate 0 --json\n  shoal localize --dataset goats02 --start unknown")]
     Localize(LocalizeArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]

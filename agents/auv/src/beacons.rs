@@ -28,3 +28,5 @@ pub use heading_search::{HeadingSearch, search_heading};
 pub use mission::{BeaconRange, Enclosed, Mission, MissionError, Start, Step, Track};
 pub use tube::{TubeSettings, tube};
 
+#[cfg(test)]
+mod tests;

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::io::Write;
 
 use shoal_auv::beacons::{
-    EkfSettings, HeadingSearch, OdometryBounds, Start, Track, TubeSettings, dead_reckoning, ekf, search_heading,
-    tube,
+    EkfSettings, HeadingSearch, OdometryBounds, Start, Track, TubeSettings, dead_reckoning, ekf,
+    search_heading, tube,
 };
 use shoal_interval::{Interval, IntervalBox};
 
@@ -22,8 +22,9 @@ pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     let (track, report) = estimate(&dataset, &start, args);
     if let Some(out) = &args.out {
         let svg = map::figure(&dataset, &track, &report).to_svg();
-        std::fs::write(out, svg)
-            .map_err(|error| Failure::failed(format!("{}: the figure cannot be written: {error}", out.display())))?;
+        std::fs::write(out, svg).map_err(|error| {
+            Failure::failed(format!("{}: the figure cannot be written: {error}", out.display()))
+        })?;
     }
     let text = if args.json {
         serde_json::to_string(&report).while_doing("print the result")?
@@ -95,8 +96,7 @@ pub(super) fn start(dataset: &Dataset, args: &LocalizeArgs) -> Result<Start, Fai
 
 /// Looks for a start that agrees with the whole mission.
 fn search(dataset: &Dataset, args: &LocalizeArgs) -> Result<Start, Failure> {
-    let anywhere =
-        Start { position_m: dataset.mission.area_m(), heading_rad: Interval::spanning(-PI, PI) };
+    let anywhere = Start { position_m: dataset.mission.area_m(), heading_rad: Interval::spanning(-PI, PI) };
     let settings = tube_settings(&args.bounds, false);
     let search = HeadingSearch { precision_rad: (2.0 * args.bounds.heading_rad).max(1e-3) };
     let heading_rad = search_heading(&dataset.mission, &anywhere, &settings, &search);
@@ -149,7 +149,8 @@ fn told(dataset: &Dataset, start: &Start, args: &LocalizeArgs, report: &Report) 
         )),
         EstimatorKind::Ekf => {
             let sigma = bounds.sigma_m.map_or("as stated".to_owned(), |sigma_m| format!("{sigma_m} m"));
-            let gate = if bounds.gate > 0.0 { format!("gate {} sigma", bounds.gate) } else { "no gate".to_owned() };
+            let gate =
+                if bounds.gate > 0.0 { format!("gate {} sigma", bounds.gate) } else { "no gate".to_owned() };
             text.push_str(&format!("  ranges       standard deviation {sigma}, {gate}\n"));
         }
     }

@@ -47,7 +47,8 @@ impl Dataset {
         let steps = read_odometry(&folder.join("odom.csv"))?;
         let ranges = read_ranges(&folder.join("ranges.csv"), &beacon_ids, steps.len())?;
         let reference = folder.join("ref_poses.csv");
-        let reference = if reference.exists() { Some(read_reference(&reference, steps.len())?) } else { None };
+        let reference =
+            if reference.exists() { Some(read_reference(&reference, steps.len())?) } else { None };
         let mission = Mission::new(beacons_m, steps, ranges)
             .map_err(|error| Failure::failed(format!("{}: {error}", folder.display())))?;
         Ok(Self { mission, beacon_ids, reference })
@@ -61,7 +62,9 @@ fn read_beacons(path: &Path) -> Result<(Vec<String>, Vec<Vector2<f64>>), Failure
     for row in &table.rows {
         let id = table.text(row, 0);
         if ids.iter().any(|known| known == id) {
-            return Err(table.wrong(row.line, format!("beacon `{id}` is there already: give each its own id")));
+            return Err(
+                table.wrong(row.line, format!("beacon `{id}` is there already: give each its own id"))
+            );
         }
         ids.push(id.to_owned());
         beacons_m.push(Vector2::new(table.number(row, 1)?, table.number(row, 2)?));
@@ -111,14 +114,19 @@ fn read_ranges(path: &Path, beacon_ids: &[String], last_pose: usize) -> Result<V
         }
         let id = table.text(row, 1);
         let Some(beacon) = beacon_ids.iter().position(|known| known == id) else {
-            return wrong(format!("beacon `{id}` is not in beacons.csv, which has {}", beacon_ids.join(", ")));
+            return wrong(format!(
+                "beacon `{id}` is not in beacons.csv, which has {}",
+                beacon_ids.join(", ")
+            ));
         };
         let (range_m, sigma_m) = (table.number(row, 2)?, table.number(row, 3)?);
         if range_m < 0.0 {
             return wrong(format!("range_m is {range_m}: a distance is never negative, leave the line out"));
         }
         if sigma_m <= 0.0 {
-            return wrong(format!("sigma_m is {sigma_m}: give a standard deviation above zero, such as 0.75"));
+            return wrong(format!(
+                "sigma_m is {sigma_m}: give a standard deviation above zero, such as 0.75"
+            ));
         }
         ranges.push(BeaconRange { pose, beacon, range_m, sigma_m });
     }

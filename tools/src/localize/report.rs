@@ -57,9 +57,9 @@ impl Report {
             // There is at least one pose.
             width_median_m: widths_m[poses / 2],
             width_max_m: widths_m[poses - 1],
-            centre_rms_m: errors_m
-                .as_deref()
-                .map(|errors_m| (errors_m.iter().map(|error| error * error).sum::<f64>() / poses as f64).sqrt()),
+            centre_rms_m: errors_m.as_deref().map(|errors_m| {
+                (errors_m.iter().map(|error| error * error).sum::<f64>() / poses as f64).sqrt()
+            }),
             centre_max_m: errors_m.map(|errors_m| errors_m.into_iter().fold(0.0, f64::max)),
             ranges_used: ranges - track.rejected.len(),
             ranges_rejected: track.rejected.len(),
@@ -73,7 +73,12 @@ impl Report {
         let mut text = format!("{name}\n");
         // Writing to a string does not fail.
         if let Some(contained) = self.contained_fraction {
-            let _ = writeln!(text, "  containment  {:.2} % of {} poses", 100.0 * contained, grouped(self.poses as u64));
+            let _ = writeln!(
+                text,
+                "  containment  {:.2} % of {} poses",
+                100.0 * contained,
+                grouped(self.poses as u64)
+            );
         }
         let _ = writeln!(
             text,
@@ -98,7 +103,12 @@ impl Report {
 
 /// Distance between centre and reference at each pose, in metres.
 pub fn errors_m(track: &Track, reference: &[ReferencePose]) -> Vec<f64> {
-    track.poses.iter().zip(reference).map(|(pose, reference)| (pose.centre_m - reference.position_m).norm()).collect()
+    track
+        .poses
+        .iter()
+        .zip(reference)
+        .map(|(pose, reference)| (pose.centre_m - reference.position_m).norm())
+        .collect()
 }
 
 fn is_inside(track: &Track, reference: &[ReferencePose], pose: usize) -> bool {

@@ -78,9 +78,7 @@ impl Table {
         match text.parse::<f64>() {
             Ok(number) if number.abs() <= 1e9 => Ok(number),
             Ok(_) => Err(self.wrong(row.line, format!("{column} is {text}: give a number of at most 1e9"))),
-            Err(_) => {
-                Err(self.wrong(row.line, format!("{column} is `{text}`: give a number, such as 12.5")))
-            }
+            Err(_) => Err(self.wrong(row.line, format!("{column} is `{text}`: give a number, such as 12.5"))),
         }
     }
 

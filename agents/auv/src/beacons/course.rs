@@ -38,7 +38,8 @@ impl Course {
             .map(|step| {
                 let exactly = |number| Interval::spanning(number, number);
                 let body_m = IntervalBox::from([exactly(step.forward_m), exactly(step.left_m)]);
-                let step_m = turned(body_m, heading_rad).inflate(bounds.step_m + bounds.relative * step.length_m());
+                let step_m =
+                    turned(body_m, heading_rad).inflate(bounds.step_m + bounds.relative * step.length_m());
                 heading_rad = heading_rad + exactly(step.turn_rad);
                 step_m
             })

@@ -55,7 +55,10 @@ impl Filter {
         let sides = [start.position_m[0], start.position_m[1], start.heading_rad];
         let [x, y, heading] = sides.map(|side| side.mid());
         let variance = sides.map(|side| side.radius() * side.radius() / 9.0);
-        Self { mean: Vector3::new(x, y, heading), covariance: Matrix3::from_diagonal(&Vector3::from(variance)) }
+        Self {
+            mean: Vector3::new(x, y, heading),
+            covariance: Matrix3::from_diagonal(&Vector3::from(variance)),
+        }
     }
 
     fn predict(&mut self, step: &Step, settings: &EkfSettings) {

@@ -94,8 +94,9 @@ impl Mission {
         if let Some(index) = beacons_m.iter().position(|at| !at.iter().all(|side| side.is_finite())) {
             return bad("beacon", index);
         }
-        let is_bad =
-            |step: &Step| ![step.forward_m, step.left_m, step.turn_rad].iter().all(|number| number.is_finite());
+        let is_bad = |step: &Step| {
+            ![step.forward_m, step.left_m, step.turn_rad].iter().all(|number| number.is_finite())
+        };
         if let Some(index) = steps.iter().position(is_bad) {
             return bad("step", index);
         }

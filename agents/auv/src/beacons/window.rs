@@ -38,8 +38,9 @@ pub(super) fn agreed(
     settings: &TubeSettings,
 ) -> Option<IntervalBox<2>> {
     let rings = rings(pose, reach, mission, course, settings);
-    let least = (0..=settings.outliers)
-        .find(|&outliers| Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0]).is_some())?;
+    let least = (0..=settings.outliers).find(|&outliers| {
+        Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0]).is_some()
+    })?;
     Some(Relaxed::new(&rings, least.saturating_add(settings.margin), settings).hull(position_m))
 }
 
@@ -136,7 +137,9 @@ pub(super) fn contradicting(
     mission.ranges_at(pose).filter(move |&index| {
         let range = &mission.ranges()[index];
         let beacon_m = IntervalBox::centred(&mission.beacons_m()[range.beacon], 0.0);
-        Ring::new(beacon_m, Interval::centred(range.range_m, settings.range_m)).contract(position_m).is_empty()
+        Ring::new(beacon_m, Interval::centred(range.range_m, settings.range_m))
+            .contract(position_m)
+            .is_empty()
     })
 }
 
