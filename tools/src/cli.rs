@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::localize::LocalizeArgs;
 use crate::plot::Kind;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
@@ -43,11 +44,12 @@ pub enum Command {
         after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
     )]
     Tap(TapArgs),
-    /// Find out where AUVs were, after the run: all trajectories of a record together, and how much narrower they become
+    /// Find out where AUVs were, after the run: all trajectories of a record together, or one vehicle from files
     #[command(
-        after_help = "Writes a copy of the record that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\
+        after_help = "From a record it writes a copy that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\
         Examples:\n  shoal run six-circles --record circles.mcap\n  shoal localize circles.mcap --offline\n  \
-        shoal plot circles.offline.mcap tubes --auv 3 -o tubes.svg"
+        shoal plot circles.offline.mcap tubes --auv 3 -o tubes.svg\n  shoal localize --dataset goats02 -o track.svg\n  \
+        shoal localize --dataset goats02 --estimator ekf --gate 0 --json\n  shoal localize --dataset goats02 --start unknown"
     )]
     Localize(LocalizeArgs),
     /// Draw a figure (SVG) of what a record holds
@@ -200,24 +202,6 @@ pub struct PlotArgs {
     /// For `rays`: how far to follow them, in metres; as far as pings went unless given
     #[arg(long, value_name = "METRES")]
     pub range_m: Option<f64>,
-}
-
-#[derive(Debug, Args)]
-pub struct LocalizeArgs {
-    /// The record, as `shoal run --record` leaves it
-    pub record: PathBuf,
-    /// From all of the record: every ping contracts both its ends, forward and backward in time
-    #[arg(long)]
-    pub offline: bool,
-    /// File to write, a copy of the record with the trajectories; RECORD.offline.mcap unless given
-    #[arg(long, short, value_name = "FILE.mcap")]
-    pub out: Option<PathBuf>,
-    /// Print the outcome as one JSON line
-    #[arg(long)]
-    pub json: bool,
-    /// No progress bar
-    #[arg(long, short)]
-    pub quiet: bool,
 }
 
 #[derive(Debug, Args)]

@@ -27,3 +27,6 @@ pub use ekf::{EkfSettings, ekf};
 pub use heading_search::{HeadingSearch, search_heading};
 pub use mission::{BeaconRange, Enclosed, Mission, MissionError, Start, Step, Track};
 pub use tube::{TubeSettings, tube};
+
+#[cfg(test)]
+mod tests;

@@ -12,9 +12,9 @@ use shoal_bus::message::AuvId;
 use shoal_bus::record::rows::{OfflineRow, Real};
 use shoal_bus::record::{Ending, append_offline};
 
+use super::LocalizeArgs;
 use super::outcome::{Enclosure, LOCALIZE_FORMAT, Line, Outcome, Pose, centre_rms_m};
 use super::recorded::{Told, read};
-use crate::cli::LocalizeArgs;
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
 
@@ -22,13 +22,12 @@ use crate::failure::{Failure, While};
 const PARTS_OF_A_SHARE: usize = 4;
 
 /// Reconstructs, writes the record with the trajectories, and prints how wide they are.
-pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
-    let out = args.out.clone().unwrap_or_else(|| beside(&args.record));
-    let path = args.record.display();
+pub fn localize(record: &Path, args: &LocalizeArgs) -> Result<Exit, Failure> {
+    let out = args.out.clone().unwrap_or_else(|| beside(record));
+    let path = record.display();
     let wrong = |error: &dyn std::fmt::Display| Failure::failed(format!("{path}: {error}"));
-    let told =
-        read(File::open(&args.record).map_err(|error| wrong(&error))?).map_err(|error| wrong(&error))?;
-    if is_same(&args.record, &out) {
+    let told = read(File::open(record).map_err(|error| wrong(&error))?).map_err(|error| wrong(&error))?;
+    if is_same(record, &out) {
         return Err(Failure::usage(format!("{path} would be overwritten: choose another file with --out")));
     }
 
@@ -44,7 +43,7 @@ pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     bar.finish_and_clear();
 
     let poses = poses(&told, &reconstruction);
-    write(&args.record, &out, &poses)?;
+    write(record, &out, &poses)?;
     let outcome = outcome(&told, &reconstruction, &poses, (threads, solve_s));
     let text = if args.json {
         serde_json::to_string(&outcome).while_doing("print the outcome")? + "\n"
