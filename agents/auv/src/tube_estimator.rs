@@ -73,6 +73,11 @@ impl TubeEstimator {
         }
     }
 
+    /// Bytes of heap that are in use for what is remembered; the horizon and the number of rings bound them.
+    pub fn memory_bytes(&self) -> usize {
+        self.history.memory_bytes() + self.odometry.memory_bytes() + self.rings.memory_bytes()
+    }
+
     /// Exact local time of something stamped `stamp`, in seconds.
     fn local_s(&self, stamp: LocalTime) -> Interval {
         // Seconds as a double are off by at most half an ulp; one whole ulp is added.
