@@ -111,6 +111,11 @@ impl Odometry {
         self.legs.back()
     }
 
+    /// Bytes of heap in use.
+    pub fn memory_bytes(&self) -> usize {
+        self.legs.capacity() * size_of::<Leg>()
+    }
+
     /// The state at `stamp` as it was known then, and the way from there to the last tick. None when `stamp` is not
     /// remembered: beyond the horizon, before birth, or after the last tick.
     ///

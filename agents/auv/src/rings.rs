@@ -91,6 +91,11 @@ impl Rings {
         &self.rings
     }
 
+    /// Bytes of heap in use.
+    pub fn memory_bytes(&self) -> usize {
+        self.rings.capacity() * size_of::<Ring>()
+    }
+
     /// Adds the newest. The oldest makes room for it.
     pub fn push(&mut self, ring: Ring) {
         if self.most == 0 {

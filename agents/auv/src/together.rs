@@ -11,7 +11,7 @@ mod support;
 use shoal_interval::IntervalBox;
 
 use self::half_space::{Frame, HalfSpace};
-use self::support::{Reach, reach};
+use self::support::{Reach, Reached, reach};
 use crate::rings::Ring;
 use crate::state::{Contradiction, Sound, State};
 
@@ -34,12 +34,13 @@ pub fn contract(
     let mut state = *state;
     for _ in 0..ROUNDS {
         let before = state;
-        for ring in rings.iter().rev() {
-            state = ring.contract(&state, sound)?;
-        }
         state = within_planes(rings, &state, sound)?;
         if !state.is_tighter_by(&before, stopping_ratio) {
             break;
+        }
+        // Each had been heard out on the box before.
+        for ring in rings.iter().rev() {
+            state = ring.contract(&state, sound)?;
         }
     }
     Ok(state)
@@ -62,9 +63,13 @@ fn within_planes(rings: &[Ring], state: &State, sound: &Sound) -> Result<State, 
     if count < 2 {
         return Ok(*state);
     }
+    let mut reached = Reached::nowhere();
     for axis in 0..4 {
         for sign in [1.0, -1.0] {
-            match reach(&planes[..count], &frame, axis, sign) {
+            if reached.is_near(&frame, axis, sign) {
+                continue;
+            }
+            match reach(&planes[..count], &frame, axis, sign, &mut reached) {
                 Reach::AtMost(most) if sign > 0.0 => frame.upper[axis] = frame.upper[axis].min(most),
                 Reach::AtMost(most) => frame.lower[axis] = frame.lower[axis].max(-most),
                 Reach::Nothing(guilty) => {

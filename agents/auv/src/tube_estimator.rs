@@ -84,6 +84,11 @@ impl TubeEstimator {
         Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s }
     }
 
+    /// Bytes of heap that are in use for what is remembered; the horizon and the number of rings bound them.
+    pub fn memory_bytes(&self) -> usize {
+        self.history.memory_bytes() + self.odometry.memory_bytes() + self.rings.memory_bytes()
+    }
+
     /// Exact local time of something stamped `stamp`, in seconds.
     fn local_s(&self, stamp: LocalTime) -> Interval {
         local_s(stamp, self.stamp_s)
