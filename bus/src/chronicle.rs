@@ -20,6 +20,10 @@ pub struct Entry {
 
 /// The kinds of things that happen, in the order in which simultaneous ones of one AUV are told.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a box for every answer would cost more than the memory for a window"
+)]
 pub enum What {
     /// Where the AUV really is at one of its ticks.
     Truth(Truth),
@@ -87,6 +91,8 @@ pub enum Enclosure {
     Slice,
     /// A ping's payload, at its emission.
     Ping,
+    /// A neighbour in a report, at its tick.
+    Around,
     /// An enclosure that was reported empty where no fault was declared.
     Emptied,
 }
@@ -146,6 +152,7 @@ impl Enclosure {
             Self::Report => "report",
             Self::Slice => "slice",
             Self::Ping => "ping",
+            Self::Around => "neighbour",
             Self::Emptied => "emptied",
         }
     }

@@ -169,6 +169,32 @@ pub struct Orders {
     pub area_m: BoundsBox,
     /// A promise to break, so that the channel's check can be seen to catch it.
     pub sabotage: Option<Sabotage>,
+    /// How it encloses its neighbours in its own frame, if it does.
+    pub relative: Option<Relative>,
+}
+
+/// How an AUV encloses its neighbours in its own frame (seed 002, chapter 5).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Relative {
+    /// What it takes from a ping.
+    pub measures: Measures,
+    /// Whether it believes the velocity that a ping tells; else it knows of its neighbours' motion only what `fellows` says.
+    pub exchanged: bool,
+    /// So many of a neighbour's last pings count together; one for the last alone.
+    pub remembered: u16,
+    /// Bounds that the body of every neighbour keeps.
+    pub fellows: BodyBounds,
+}
+
+/// What a ping tells of where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Measures {
+    /// The range, by the clocks at both ends, and the bearing, by an array.
+    RangeAndBearing,
+    /// The bearing alone.
+    Bearing,
+    /// The range alone.
+    Range,
 }
 
 /// How an AUV encloses its position and clock.
@@ -432,6 +458,22 @@ pub enum Sense {
     },
     /// The modem heard others at the stamp, so the ping that was booked for it was held back.
     Held,
+    /// The direction from which a ping arrived, by an ultra-short baseline array in the nose; comes with the ping that was heard
+    /// from `sender`, at the same stamp.
+    ///
+    /// From where the receiver is at the reception to where the emitter was at the emission. Where rays bend the azimuth still leads
+    /// there, the elevation is the apparent one: that of the sound as it comes in, after its bounces.
+    Bearing {
+        /// Who emitted the ping.
+        sender: AuvId,
+        /// Counter-clockwise from the nose, in the horizontal plane, in rad; may leave (-pi, pi] by its error.
+        azimuth_rad: Measured,
+        /// Positive upwards from the horizontal plane, in rad, if the array has a vertical baseline.
+        elevation_rad: Option<Measured>,
+        /// The own heading at the arrival, by the array's own compass: what the azimuth is counted from, counter-clockwise from
+        /// east, in rad.
+        heading_rad: Measured,
+    },
 }
 
 /// What an AUV answers to one [`Sensed`].
@@ -482,10 +524,21 @@ pub struct Report {
     pub contractions: u16,
     /// Pings told at this tick that the estimator took for outliers, or dropped.
     pub rejected: u16,
+    /// Where the neighbours are whom it follows, sorted by AUV; none unless its [orders](Orders::relative) say so.
+    pub around: Vec<Around>,
     /// Separate parts of the set; one unless the AUV does not know which of several places it is at.
     pub components: u16,
     /// What a Kalman filter believes; its boxes reach three standard deviations to either side. Nobody promises anything then.
     pub gaussian: Option<Gaussian>,
+}
+
+/// A neighbour as it is seen from an AUV.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Around {
+    /// Who.
+    pub auv: AuvId,
+    /// Encloses its position less that of the AUV at the tick, in metres east and north.
+    pub position_m: [Bounds; 2],
 }
 
 /// A Gaussian over position and clock: east, north, up in metres, and true minus local time in seconds.

@@ -1,8 +1,11 @@
 //! The ping as the modem sends it: 31 bytes, every interval rounded **outwards** to the few bits it gets.
 //!
+//! The three high bits of the first byte say what a frame is: 2 is a [`Ping`], intervals that are promised to hold the truth, as
+//! below; 3 is a [`GaussianPing`], a belief that promises nothing.
+//!
 //! | bytes | field | unit |
 //! |---|---|---|
-//! | 0 | version (3 high bits), exponent `e` of the emission width (5 low bits) | |
+//! | 0 | kind 2 (3 high bits), exponent `e` of the emission width (5 low bits) | |
 //! | 1-2 | sender, `u16` | |
 //! | 3 | sequence number modulo 256, `u8` | |
 //! | 4-9 | earliest true time of emission, `i48` | 2⁻²⁰ s |
@@ -17,6 +20,8 @@
 //! All integers are little-endian. Scaling by a power of two is exact in binary floating point, floor and ceiling are too,
 //! so the decoded intervals always hold the encoded ones.
 
+mod gaussian;
+
 use std::fmt;
 
 use serde::de::{self, Visitor};
@@ -25,10 +30,13 @@ use thiserror::Error;
 
 use crate::message::{AuvId, Bounds, BoundsBox};
 
+pub use gaussian::GaussianPing;
+
 /// Length of an encoded ping.
 pub const FRAME_BYTES: usize = 31;
 
-const VERSION: u8 = 2;
+const INTERVALS: u8 = 2;
+const GAUSSIAN: u8 = 3;
 const TIME_UNIT_EXPONENT: i32 = -20;
 const EXPONENTS: std::ops::RangeInclusive<i32> = -60..=60;
 
@@ -130,9 +138,54 @@ pub enum FrameError {
     /// The length is wrong.
     #[error("a ping has {FRAME_BYTES} bytes, this frame has {0}")]
     Length(usize),
-    /// The version is unknown.
-    #[error("the frame has version {0}, this build reads version {VERSION}")]
-    Version(u8),
+    /// It is something else, or comes from another version.
+    #[error(
+        "the frame is of kind {0}, which is not what was asked for: {INTERVALS} has intervals, {GAUSSIAN} a Gaussian"
+    )]
+    Kind(u8),
+}
+
+/// What a frame may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Payload {
+    /// Intervals that hold the truth.
+    Intervals(Ping),
+    /// A belief.
+    Gaussian(GaussianPing),
+}
+
+impl Payload {
+    /// Reads a frame of any kind.
+    ///
+    /// # Errors
+    /// [`FrameError::Length`] and [`FrameError::Kind`].
+    pub fn decode(frame: &Frame) -> Result<Self, FrameError> {
+        match kind(header(frame)?) {
+            GAUSSIAN => GaussianPing::decode(frame).map(Self::Gaussian),
+            _ => Ping::decode(frame).map(Self::Intervals),
+        }
+    }
+
+    /// Who says that it sent it.
+    pub fn sender(&self) -> AuvId {
+        match self {
+            Self::Intervals(ping) => ping.sender,
+            Self::Gaussian(ping) => ping.sender,
+        }
+    }
+}
+
+/// The bytes of a frame that has as many as it should.
+fn header(frame: &Frame) -> Result<&[u8; FRAME_BYTES], FrameError> {
+    frame.bytes().try_into().map_err(|_| FrameError::Length(frame.bytes().len()))
+}
+
+fn kind(bytes: &[u8; FRAME_BYTES]) -> u8 {
+    bytes[0] >> 5
+}
+
+fn sender(of: AuvId) -> Result<[u8; 2], FrameError> {
+    u16::try_from(of.0).map(u16::to_le_bytes).map_err(|_| FrameError::Sender(of))
 }
 
 impl Ping {
@@ -150,7 +203,7 @@ impl Ping {
     /// # Ok::<(), shoal_bus::ping::FrameError>(())
     /// ```
     pub fn encode(&self) -> Result<Frame, FrameError> {
-        let sender = u16::try_from(self.sender.0).map_err(|_| FrameError::Sender(self.sender))?;
+        let sender = sender(self.sender)?;
         let (emission, widen) = quantise_time(self.emission_s)?;
         let position =
             Block::of(&self.position_m, 24).ok_or(FrameError::TooLarge { field: "position box" })?;
@@ -158,8 +211,8 @@ impl Ping {
             Block::of(&self.velocity_m_s, 8).ok_or(FrameError::TooLarge { field: "velocity box" })?;
 
         let mut bytes = Vec::with_capacity(FRAME_BYTES);
-        bytes.push(VERSION << 5 | widen.exponent);
-        bytes.extend(sender.to_le_bytes());
+        bytes.push(INTERVALS << 5 | widen.exponent);
+        bytes.extend(sender);
         bytes.push(self.sequence);
         bytes.extend(&emission.to_le_bytes()[..6]);
         bytes.push(widen.width);
@@ -168,13 +221,11 @@ impl Ping {
         Frame::new(&bytes).ok_or(FrameError::Length(bytes.len()))
     }
 
-    /// Reads a frame. Any 31 bytes of the right version are some ping; whether it is true is another question.
+    /// Reads a frame. Any 31 bytes of the right kind are some ping; whether it is true is another question.
     pub fn decode(frame: &Frame) -> Result<Self, FrameError> {
-        let bytes: &[u8; FRAME_BYTES] =
-            frame.bytes().try_into().map_err(|_| FrameError::Length(frame.bytes().len()))?;
-        let version = bytes[0] >> 5;
-        if version != VERSION {
-            return Err(FrameError::Version(version));
+        let bytes = header(frame)?;
+        if kind(bytes) != INTERVALS {
+            return Err(FrameError::Kind(kind(bytes)));
         }
         let earliest = signed(&bytes[4..10]) as f64 * power_of_two(TIME_UNIT_EXPONENT);
         let width = f64::from(bytes[10]) * power_of_two(TIME_UNIT_EXPONENT + i32::from(bytes[0] & 31));
@@ -347,6 +398,6 @@ mod tests {
         crowd.sender = AuvId(70_000);
         assert_eq!(crowd.encode(), Err(FrameError::Sender(AuvId(70_000))));
         assert_eq!(Ping::decode(&Frame::new(&[32; 3]).unwrap()), Err(FrameError::Length(3)));
-        assert_eq!(Ping::decode(&Frame::new(&[0xff; 31]).unwrap()), Err(FrameError::Version(7)));
+        assert_eq!(Ping::decode(&Frame::new(&[0xff; 31]).unwrap()), Err(FrameError::Kind(7)));
     }
 }

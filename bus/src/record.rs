@@ -10,6 +10,8 @@
 //! | `/pings` | `shoal.Pings/1` | JSON | what crossed the water in one batch, with its fate |
 //! | `/sensed` | `shoal.Sensed/1` | [`SENSED_ENCODING`] | what the AUVs were told in one batch |
 //! | `/summary` | `shoal.Summary/1` | JSON | the outcome, without facts of the machine; once, at the end |
+//! | `/born` | `shoal.Born/1` | [`SENSED_ENCODING`] | what every AUV was told at birth; once, at time zero |
+//! | `/offline` | `shoal.Offline/1` | JSON | trajectories reconstructed after the run in one batch; see [`append_offline`] |
 //!
 //! The schemas in `bus/schemas/` describe every field with its unit. A **batch** holds what happened in
 //! `(end - 100 ms, end]` of true time; `end` is a multiple of 100 ms and the `log_time` of its messages (nanoseconds of true
@@ -39,7 +41,7 @@ pub use info::{Chunks, Containment, RECORD_INFO_FORMAT, RecordInfo, StoredFile, 
 pub use read::{Row, read_rows};
 pub use scan::{Ending, Item, RECORD_LIMIT_BYTES, Source, scan};
 pub use topics::{SENSED_ENCODING, Topic};
-pub use write::RecordWriter;
+pub use write::{AppendError, RecordWriter, append_offline};
 
 /// Version of the layout of records: the `format` of the metadata record `shoal`.
 pub const RECORD_FORMAT: u32 = 1;

@@ -42,6 +42,9 @@ pub struct Summary {
     pub digest: String,
     /// Whether every enclosure held the truth.
     pub containment: Containment,
+    /// How good the estimates of each group are, in the order of the scenario.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub estimators: Vec<EstimatorLine>,
     /// Width of the reported position boxes, in metres.
     pub position_width_m: Widths,
     /// Width of the reported clock intervals, in seconds.
@@ -60,7 +63,7 @@ pub struct Summary {
 /// The proof.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Containment {
-    /// Enclosures compared with the truth.
+    /// Enclosures compared with the truth: all but those of Kalman filters, which promise nothing.
     pub checks: u64,
     /// Those that did not hold it, though nobody had told the AUV anything false.
     pub violations: u64,
@@ -137,6 +140,33 @@ pub struct ViolationLine {
     pub margin: Option<f64>,
     /// Unit of the margin.
     pub unit: String,
+}
+
+/// How good the estimates of one group are. A number without bound is the largest there is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EstimatorLine {
+    /// Name of the group.
+    pub group: String,
+    /// `tube`, `ekf` or `dead-reckoning`.
+    pub estimator: String,
+    /// How an `ekf` takes in what others believe: `independent` or `covariance-intersection`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub fusion: Option<String>,
+    /// Number of AUVs.
+    pub auvs: u32,
+    /// Reports of all of them.
+    pub reports: u64,
+    /// Part of the reports whose box and clock interval hold the truth: 1 by promise for all but an `ekf`, whose reach three standard
+    /// deviations to either side.
+    pub contained_fraction: f64,
+    /// Mean of the normalized estimation error squared over position and clock, four dimensions: 4 for an honest Gaussian, more for
+    /// an overconfident one; absent where no Gaussian is reported.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub nees_mean: Option<f64>,
+    /// Root of the mean square distance between the truth and the middle of the box, or the mean, in metres.
+    pub centre_rms_m: f64,
+    /// Median over the AUVs of each one's mean width of its position boxes, in metres.
+    pub width_median_m: f64,
 }
 
 /// Widths of enclosures over all AUVs.

@@ -42,6 +42,8 @@ def read(reader):
     topics, found = {}, {"ticks": 0, "reports": 0, "pings": 0, "told": 0, "heard_bytes": 0}
     for schema, channel, message in reader.iter_messages(log_time_order=False):
         topics[channel.topic] = topics.get(channel.topic, 0) + 1
+        if channel.topic == "/born":
+            continue
         if channel.message_encoding == "application/x-shoal-bincode":
             rows = told(message.data)
             found["told"] += len(rows)

@@ -7,9 +7,10 @@ use toml::de::DeValue;
 use crate::body::Catalogues;
 use crate::environment::norm;
 use crate::estimating::estimator;
-use crate::model::{AuvSabotage, Environment, Group};
-use crate::modem::{Surroundings as ModemSurroundings, modem};
+use crate::model::{AuvSabotage, Environment, Estimator, Group, Level, Modem};
+use crate::modem::{Surroundings as ModemSurroundings, in_seconds, modem, packet_arithmetic, packet_ns};
 use crate::reader::Table;
+use crate::relative::relative;
 use crate::sensing::{PERIOD_MAX_NS, PERIOD_MIN_NS};
 use crate::start::start;
 use crate::steering::{Surroundings, controller};
@@ -51,9 +52,13 @@ pub(crate) fn group(
     let sensors = named.sensors.of_group(&table);
     let modem = modem(&table, &ModemSurroundings { environment, auvs });
     let estimator = estimator(&table);
+    let relative = relative(&table, modem.as_ref());
     let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });
     let start = start(&table, environment, kind.as_ref(), controller.as_ref(), count);
     let sabotage = table.choice("sabotage", SABOTAGES, None);
+    if let (Some(estimator), Some(modem)) = (&estimator, &modem) {
+        remembers_a_packet(&table, environment, estimator, modem);
+    }
     table.finish();
     let window_limit_ns = match (reaction_ns, &clock) {
         (Some(reaction_ns), Some(clock)) => Some(window_limit_ns(reaction_ns, clock.drift_bound)),
@@ -72,12 +77,37 @@ pub(crate) fn group(
             control_period_ns: control_period_ns?,
             reaction_ns: reaction_ns?,
             estimator: estimator?,
+            relative: relative?,
             controller: controller?,
             sabotage: sabotage?,
         })
     };
     let written = name.unwrap_or_default().to_string();
     GroupRead { name: written, group: assemble(), count, window_limit_ns, fastest_m_s }
+}
+
+/// A ping is told at its end and stamped at its beginning, which the tube must still remember.
+fn remembers_a_packet(
+    table: &Table<'_>,
+    environment: Option<&Environment>,
+    estimator: &Estimator,
+    modem: &Modem,
+) {
+    let (Estimator::Tube(tube), Some(layer)) = (estimator, &modem.physical) else { return };
+    let takes_time = matches!(environment.map(|environment| &environment.level), Some(Level::Sea(_)));
+    if !takes_time || tube.horizon_ns > packet_ns(layer) {
+        return;
+    }
+    table.refuse(
+        "estimator",
+        format!(
+            "the tube remembers {} s, but a packet takes {}: all that is heard would come too late",
+            in_seconds(tube.horizon_ns),
+            packet_arithmetic(layer)
+        ),
+        "forgets a packet's beginning before its end",
+        "write a `horizon_s` of twice that or more",
+    );
 }
 
 fn control_period(table: &Table<'_>) -> Option<i64> {

@@ -103,6 +103,10 @@
 //! | `outliers.inlier_probability` | | none | how likely a ping is right: the summary then says what the assumption is worth |
 //! | `estimator.gate_sigma` | | 3 | `"ekf"`: an innovation of more standard deviations is rejected; `false` to believe everything |
 //! | `estimator.fusion` | | `"independent"` | `"ekf"`: what others believe is `"independent"`, or taken in by `"covariance-intersection"` |
+//! | `relative` | | `false` | follows its neighbours in its own frame, as a table: |
+//! | `relative.measures` | | `"range-and-bearing"` | by what pings tell: that, `"bearing"` or `"range"`; bearings need `bearing_error_rad` |
+//! | `relative.exchanged` | | `true` | whether it believes the velocities that pings tell; else a neighbour may do all that its bounds allow |
+//! | `relative.remembered` | | 16 | so many of a neighbour's last pings count together |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
 //! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
 //! | **`[sensors.NAME]`, `[group.sensors]`** | | | sensors of one's own |
@@ -124,13 +128,14 @@
 //! | `ping_period_s` | s | 1 | between pings, in local time; with `"aloha"` their mean; `false` for a silent AUV |
 //! | `ping_phase_s` | s | drawn | local time of the first ping; only with `"periodic"` |
 //! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
+//! | `bearing_error_rad` | rad | `false` | error of the direction from which a ping arrives, up to pi: an ultra-short baseline array |
 //! | `frame_bytes` | | 64 | bytes that one ping may have: [`PING_BYTES`] to [`FRAME_BYTES_MAX`] |
 //! | `addresses` | | none | so many devices can be told apart: a run with more is warned of |
 //! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, `"slotted"`, `"csma"`, or a table with that `name` |
 //! | `access.slot_s` | s | `ping_period_s` / `slots` | `"slotted"`: length of a slot, in true time; holds a packet and its way to the guard range |
 //! | `access.slots` | | all AUVs | `"slotted"`: slots in a frame; AUV i has slot i modulo this |
 //! | `access.guard_range_m` | m | diagonal of the area | `"slotted"`: slots do not overlap for receivers up to this far away |
-//! | `access.listen_s` | s | one packet | `"csma"`: the medium must have been quiet for so long, in local time |
+//! | `access.listen_s` | s | one packet | `"csma"`: the medium must have been quiet for so long, in local time; 10 s at most |
 //! | `access.backoff_s` | s | two packets | `"csma"`: mean time until a ping that was held back is tried again, in local time |
 //! | `duty_cycle` | | always awake | when it listens, as a table: |
 //! | `duty_cycle.period_s` | s | needed | it wakes so often, in local time |
@@ -193,6 +198,7 @@ mod overrides;
 mod packet;
 pub mod presets;
 mod reader;
+mod relative;
 mod sea;
 mod sensing;
 mod sound_speed;
@@ -204,6 +210,7 @@ mod warnings;
 pub use diagnostics::{Diagnostic, SHOWN_ERRORS_MAX, ScenarioErrors};
 pub use document::parse;
 pub use library::{LibraryEntry, LoadError, library, load};
+pub use medium_access::LISTEN_MAX_NS;
 pub use model::*;
 pub use overrides::{OverrideError, Overrides};
 pub use packet::{FRAME_BYTES_MAX, PING_BYTES};

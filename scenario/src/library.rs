@@ -15,10 +15,13 @@ const LIBRARY: &[LibraryEntry] = &[
     LibraryEntry { name: "two-circles", text: include_str!("../library/two-circles.toml") },
     LibraryEntry { name: "six-circles", text: include_str!("../library/six-circles.toml") },
     LibraryEntry { name: "six-auvs-3d", text: include_str!("../library/six-auvs-3d.toml") },
+    LibraryEntry { name: "sea-trial", text: include_str!("../library/sea-trial.toml") },
     LibraryEntry { name: "swarm-3", text: include_str!("../library/swarm-3.toml") },
     LibraryEntry { name: "surface-bounce", text: include_str!("../library/surface-bounce.toml") },
     LibraryEntry { name: "thermocline", text: include_str!("../library/thermocline.toml") },
     LibraryEntry { name: "crowded-band", text: include_str!("../library/crowded-band.toml") },
+    LibraryEntry { name: "data-incest", text: include_str!("../library/data-incest.toml") },
+    LibraryEntry { name: "sweep-16", text: include_str!("../library/sweep-16.toml") },
     LibraryEntry { name: "swarm-300", text: include_str!("../library/swarm-300.toml") },
     LibraryEntry { name: "swarm-1000", text: include_str!("../library/swarm-1000.toml") },
 ];

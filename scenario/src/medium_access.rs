@@ -12,6 +12,9 @@ use crate::reader::Table;
 use crate::sensing::PERIOD_MIN_NS;
 use crate::sound_speed::slowest_m_s;
 
+/// A modem listens at most so long before it emits, in local nanoseconds: it remembers no more of what it heard.
+pub const LISTEN_MAX_NS: i64 = 10_000_000_000;
+
 /// So long must the medium have been quiet where packets take no time.
 const QUIET_DEFAULT_NS: i64 = 100_000_000;
 const NAMES: [&str; 4] = ["periodic", "aloha", "slotted", "csma"];
@@ -55,7 +58,7 @@ pub(crate) fn medium_access(
     let slotted = (name == "slotted").then(|| slotted(&table, written_ns, packet, around));
     let packet_ns = packet.map_or(QUIET_DEFAULT_NS, packet_ns);
     let waits_ns = (name == "csma").then(|| {
-        let listen_ns = table.time_ns("listen_s", Some(packet_ns), 1);
+        let listen_ns = listen(&table, packet_ns);
         (listen_ns, table.time_ns("backoff_s", Some(2 * packet_ns), 1))
     });
     table.finish();
@@ -91,6 +94,22 @@ fn outlasts_a_packet(modem: &Table<'_>, period_ns: i64, packet: Option<&Physical
             ),
         );
     }
+}
+
+/// How long the medium must have been quiet: one packet, unless the table says it.
+fn listen(table: &Table<'_>, packet_ns: i64) -> Option<i64> {
+    let listen_ns = table.time_ns("listen_s", Some(packet_ns.min(LISTEN_MAX_NS)), 1)?;
+    if listen_ns > LISTEN_MAX_NS {
+        let most_s = in_seconds(LISTEN_MAX_NS);
+        table.refuse(
+            "listen_s",
+            format!("a modem remembers what it heard for {most_s} s, not for {} s", in_seconds(listen_ns)),
+            format!("longer than {most_s} s"),
+            format!("write `listen_s = {most_s}` or less; a busy band is better shared by `backoff_s`"),
+        );
+        return None;
+    }
+    Some(listen_ns)
 }
 
 fn has_no_phase(modem: &Table<'_>, name: &str) {

@@ -309,6 +309,8 @@ pub struct Group {
     pub reaction_ns: i64,
     /// How they estimate.
     pub estimator: Estimator,
+    /// How they enclose their neighbours in their own frames, if they do.
+    pub relative: Option<Relative>,
     /// How they steer.
     pub controller: Controller,
     /// A promise to break: a test of the checker.
@@ -369,6 +371,29 @@ pub struct Dvl {
     pub velocity_error_m_s: f64,
 }
 
+/// How AUVs enclose their neighbours in their own frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Relative {
+    /// What they take from a ping.
+    pub measures: Measures,
+    /// Whether they believe the velocities that pings tell.
+    pub exchanged: bool,
+    /// So many of a neighbour's last pings count together.
+    pub remembered: u16,
+}
+
+/// What a ping tells of where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measures {
+    /// Range and bearing.
+    RangeAndBearing,
+    /// Bearing alone.
+    Bearing,
+    /// Range alone.
+    Range,
+}
+
 /// A satellite receiver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Gnss {
@@ -393,6 +418,8 @@ pub struct Modem {
     pub access: MediumAccess,
     /// Error of an arrival's timestamp in seconds.
     pub timestamp_error_s: f64,
+    /// Error of the direction from which a ping arrives, in rad; `None` for a modem that measures none.
+    pub bearing_error_rad: Option<f64>,
     /// Bytes one ping may have.
     pub frame_bytes: u16,
     /// What it does to sound at level `sea`; `None` for one that works at level `ideal` only.

@@ -31,6 +31,8 @@ const PHYSICAL_KEYS: [&str; 9] = [
 const MODULATIONS: &[(&str, Modulation)] = &[("bpsk", Modulation::Bpsk), ("fsk", Modulation::Fsk)];
 /// Sound of more than this would boil the water, and of less than none is none.
 const SOURCE_LEVEL: Rule = Rule::Within(0.0, 260.0);
+/// An error of more than half a turn says nothing of the direction.
+const BEARING_ERROR: Rule = Rule::Within(0.0, std::f64::consts::PI);
 const CAPTURE_DEFAULT_DB: f64 = 6.0;
 
 pub(crate) fn modem(group: &Table<'_>, around: &Surroundings<'_>) -> Option<Modem> {
@@ -67,6 +69,11 @@ fn in_full(table: &Table<'_>, like: &Modem, around: &Surroundings<'_>) -> Option
     let range_m = table.number("range_m", Some(like.range_m), Rule::Positive);
     let timestamp_error_s =
         table.number("timestamp_error_s", Some(like.timestamp_error_s), Rule::NotNegative);
+    let bearing_error_rad = match table.get("bearing_error_rad") {
+        None => Some(like.bearing_error_rad),
+        Some(value) if matches!(value.get_ref(), DeValue::Boolean(false)) => Some(None),
+        Some(value) => table.number_in("bearing_error_rad", value, BEARING_ERROR).map(Some),
+    };
     let frame_bytes = frame_bytes(table, like);
     let addresses = match table.get("addresses") {
         None => Some(like.addresses),
@@ -89,6 +96,7 @@ fn in_full(table: &Table<'_>, like: &Modem, around: &Surroundings<'_>) -> Option
         range_m: range_m?,
         access: access?,
         timestamp_error_s: timestamp_error_s?,
+        bearing_error_rad: bearing_error_rad?,
         frame_bytes: frame_bytes?,
         physical: physical?,
         addresses: addresses?,

@@ -72,4 +72,5 @@ broken! {
     modem_impossible: "modem-impossible",
     modem_unknown: "modem-unknown",
     access_impossible: "access-impossible",
+    bearing_impossible: "bearing-impossible",
 }

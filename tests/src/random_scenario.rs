@@ -1,6 +1,12 @@
 //! Scenario files drawn at random: as far into the corners as a scenario may go.
 
+mod modem;
+mod sea;
+
 use std::fmt::Write;
+
+use self::modem::{Drawn, write_modem};
+use self::sea::{SeaDrawn, write_sea};
 
 /// A reproducible source of draws (SplitMix64).
 #[derive(Clone, Debug)]
@@ -49,6 +55,11 @@ impl Dice {
         self.unit() < probability
     }
 
+    /// One of the words.
+    fn one_of(&mut self, words: &[&'static str]) -> &'static str {
+        words[self.whole(0, words.len() as u64 - 1) as usize]
+    }
+
     /// Zero, or else of any magnitude up to `greatest`.
     fn error(&mut self, greatest: f64) -> f64 {
         if self.chance(0.2) { 0.0 } else { self.magnitude(greatest * 1e-3, greatest) }
@@ -65,35 +76,64 @@ impl Dice {
     }
 }
 
-/// The text of the scenario with this number: 2 to 12 AUVs in up to three groups with bodies, clocks, sensors, modems and
-/// controllers of any kind, for `duration_s` seconds.
+/// The text of the scenario with this number at level `ideal`: 2 to 12 AUVs in up to three groups with bodies, clocks, sensors,
+/// modems and controllers of any kind, for `duration_s` seconds.
 pub fn random_scenario(number: u64, duration_s: f64) -> String {
+    written(number, duration_s, |dice| Sound::Ideal { speed_m_s: dice.magnitude(60.0, 1600.0) })
+}
+
+/// As [`random_scenario`], at level `sea`: water, noise, boundaries and modems of any kind.
+pub fn random_sea_scenario(number: u64, duration_s: f64) -> String {
+    written(number, duration_s, |dice| Sound::Sea(SeaDrawn::draw(dice)))
+}
+
+fn written(number: u64, duration_s: f64, sound: fn(&mut Dice) -> Sound) -> String {
     let mut dice = Dice::new(number);
     let mut text = String::new();
     // Writing to a string does not fail.
-    let _infallible = write_scenario(&mut text, &mut dice, number, duration_s);
+    let _infallible = write_scenario(&mut text, &mut dice, sound, number, duration_s);
     text
+}
+
+/// What carries sound.
+enum Sound {
+    Ideal { speed_m_s: f64 },
+    Sea(SeaDrawn),
 }
 
 /// What the groups need to know of the water.
 struct Water {
     side_m: f64,
     depth_m: f64,
+    /// Bound of the stated current anywhere.
     current_m_s: f64,
     groups: u64,
     fastest_m_s: f64,
+    sound: Sound,
 }
 
-fn write_scenario(text: &mut String, dice: &mut Dice, number: u64, duration_s: f64) -> std::fmt::Result {
+fn write_scenario(
+    text: &mut String,
+    dice: &mut Dice,
+    sound: fn(&mut Dice) -> Sound,
+    number: u64,
+    duration_s: f64,
+) -> std::fmt::Result {
     let groups = dice.whole(1, 3);
-    let sound_speed_m_s = dice.magnitude(60.0, 1600.0);
-    let current_m_s = if dice.chance(0.5) { 0.0 } else { dice.between(0.0, 0.4) };
+    let sound = sound(dice);
+    let sound_speed_m_s = match &sound {
+        Sound::Ideal { speed_m_s } => *speed_m_s,
+        Sound::Sea(sea) => sea.slowest_m_s,
+    };
+    let uniform_m_s = if dice.chance(0.5) { 0.0 } else { dice.between(0.0, 0.4) };
+    let (field, field_m_s) = current_field(dice);
     let water = Water {
         side_m: dice.magnitude(20.0, 2000.0),
         depth_m: dice.magnitude(5.0, 500.0),
-        current_m_s,
+        current_m_s: uniform_m_s + field_m_s,
         groups,
         fastest_m_s: (sound_speed_m_s / 4.0 - 2.0).min(12.0),
+        sound,
     };
     let noise = if dice.chance(0.5) { "uniform" } else { "adversarial" };
     writeln!(
@@ -108,29 +148,62 @@ fn write_scenario(text: &mut String, dice: &mut Dice, number: u64, duration_s: f
         text,
         "[environment]\narea_m = [[-{side_m}, {side_m}], [-{side_m}, {side_m}], [-{depth_m}, 0]]"
     )?;
-    writeln!(text, "sound_speed_m_s = {sound_speed_m_s}")?;
     writeln!(text, "sound_speed_error_m_s = {}", dice.error(0.02 * sound_speed_m_s))?;
-    let [x, y] = [dice.between(-current_m_s, current_m_s), dice.between(-current_m_s, current_m_s)];
+    let [x, y] = [dice.between(-uniform_m_s, uniform_m_s), dice.between(-uniform_m_s, uniform_m_s)];
     writeln!(text, "current_m_s = [{}, {}, 0]", 0.7 * x, 0.7 * y)?;
     writeln!(text, "current_error_m_s = {}", dice.errors(0.3))?;
+    text.push_str(&field);
+    match &water.sound {
+        Sound::Ideal { .. } => writeln!(text, "sound_speed_m_s = {sound_speed_m_s}")?,
+        Sound::Sea(sea) => write_sea(text, dice, sea, depth_m)?,
+    }
     let most = 12 / groups;
     (0..groups).try_for_each(|index| write_group(text, dice, &water, index, most))
+}
+
+/// A line for `[environment]` about how the current differs from place to place, and how fast it is anywhere, in m/s.
+fn current_field(dice: &mut Dice) -> (String, f64) {
+    match dice.whole(0, 3) {
+        0 => {
+            let mut end = || [dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), dice.between(-0.05, 0.05)];
+            let (surface, deep) = (end(), end());
+            let depth_m = dice.magnitude(0.5, 200.0);
+            let line = format!(
+                "current_field = {{ name = \"shear\", surface_m_s = {surface:?}, deep_m_s = {deep:?}, depth_m = {depth_m} }}\n"
+            );
+            (line, 0.43)
+        }
+        1 => {
+            let (centre, speed_m_s) =
+                ([dice.between(-500.0, 500.0), dice.between(-50.0, 50.0)], dice.between(-0.5, 0.5));
+            let core_radius_m = dice.magnitude(0.5, 500.0);
+            let line = format!(
+                "current_field = {{ name = \"vortex\", centre_m = {centre:?}, core_radius_m = {core_radius_m}, speed_m_s = {speed_m_s} }}\n"
+            );
+            (line, speed_m_s.abs())
+        }
+        _ => (String::new(), 0.0),
+    }
 }
 
 fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, most: u64) -> std::fmt::Result {
     let count = dice.whole(if water.groups == 1 { 2 } else { 1 }, most);
     writeln!(text, "\n[[group]]\nname = \"g{index}\"\ncount = {count}")?;
+    let modem = Drawn::draw(dice, water)?;
     let control_period_s = dice.seconds(0.02, 0.5);
     writeln!(text, "control_period_s = {control_period_s}\nreaction_s = {}", dice.seconds(0.012, 0.5))?;
-    write!(text, "estimator = {{ name = \"tube\", horizon_s = {}", dice.seconds(0.05, 10.0))?;
-    if dice.chance(0.4) {
-        let window = dice.whole(1, 20);
-        let tolerated = dice.whole(0, (window - 1).min(4));
-        let margin = if dice.chance(0.3) { format!(", margin = {tolerated}") } else { String::new() };
-        write!(text, ", outliers = {{ window = {window}, tolerated = {tolerated}{margin} }}")?;
+    // A packet is told at its end and belongs to its beginning, which must not be forgotten by then.
+    let horizon_s = modem.packet_s + dice.magnitude(0.05, 10.0).max(0.05);
+    write_estimator(text, dice, horizon_s)?;
+
+    let is_suite = dice.chance(0.2);
+    if is_suite {
+        writeln!(text, "sensors = \"{}\"", dice.one_of(&["nominal", "mems-ahrs", "ahrs-dvl", "fog-ins"]))?;
     }
-    let on_empty = ["drop", "relax", "restart"][dice.whole(0, 2) as usize];
-    writeln!(text, ", on_empty = \"{on_empty}\" }}")?;
+    let is_named_clock = dice.chance(0.2);
+    if is_named_clock {
+        writeln!(text, "clock = \"{}\"", dice.one_of(&["ideal", "quartz", "tcxo", "ocxo", "csac"]))?;
+    }
 
     let speed_m_s = dice.magnitude(0.4, water.fastest_m_s);
     let turn_rate_rad_s = dice.magnitude(0.05, 1.6);
@@ -142,15 +215,45 @@ fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, mo
         dice.magnitude(0.02, 4.0),
         dice.errors(0.5),
     )?;
+    if !is_named_clock {
+        write_clock(text, dice)?;
+    }
+    write_controller(text, dice, water, speed_m_s, turn_rate_rad_s)?;
+    if !is_suite {
+        write_sensors(text, dice, water)?;
+    }
+    write_modem(text, dice, water, &modem)
+}
+
+fn write_estimator(text: &mut String, dice: &mut Dice, horizon_s: f64) -> std::fmt::Result {
+    if dice.chance(0.15) {
+        return writeln!(text, "estimator = \"{}\"", dice.one_of(&["ekf", "dead-reckoning"]));
+    }
+    write!(text, "estimator = {{ name = \"tube\", horizon_s = {horizon_s:.3}")?;
+    if dice.chance(0.4) {
+        write!(text, ", rings = {}", dice.whole(0, 64))?;
+    }
+    if dice.chance(0.4) {
+        let window = dice.whole(1, 20);
+        let tolerated = dice.whole(0, (window - 1).min(4));
+        let margin = if dice.chance(0.3) { format!(", margin = {tolerated}") } else { String::new() };
+        write!(text, ", outliers = {{ window = {window}, tolerated = {tolerated}{margin} }}")?;
+    }
+    let on_empty = if dice.chance(0.5) { "drop" } else { dice.one_of(&["relax", "restart"]) };
+    writeln!(text, ", on_empty = \"{on_empty}\" }}")
+}
+
+fn write_clock(text: &mut String, dice: &mut Dice) -> std::fmt::Result {
     let drift = if dice.chance(0.3) { dice.between(0.0, 0.1) } else { dice.error(0.1) };
     let offset_s = if dice.chance(0.4) { 0.0 } else { dice.magnitude(1e-4, 1e4) };
     let wander = [0.0, 0.5, 1.0][dice.whole(0, 2) as usize];
     writeln!(
         text,
         "[group.clock]\ndrift_bound = {drift}\nwander_fraction = {wander}\noffset_bound_s = {offset_s}"
-    )?;
+    )
+}
 
-    write_controller(text, dice, water, speed_m_s, turn_rate_rad_s)?;
+fn write_sensors(text: &mut String, dice: &mut Dice, water: &Water) -> std::fmt::Result {
     writeln!(text, "[group.sensors]\nheading_error_rad = {}", dice.error(0.5))?;
     writeln!(text, "pitch_error_rad = {}\nspeed_error_m_s = {}", dice.error(0.5), dice.error(1.0))?;
     match dice.chance(0.3) {
@@ -158,16 +261,18 @@ fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, mo
         false => writeln!(text, "depth_error_m = {}", dice.error(2.0))?,
     }
     if dice.chance(0.4) {
+        let altitude_max_m = dice.magnitude(1.0, 2.0 * water.depth_m);
+        writeln!(
+            text,
+            "dvl = {{ altitude_max_m = {altitude_max_m}, velocity_error_m_s = {} }}",
+            dice.error(0.2)
+        )?;
+    }
+    if dice.chance(0.4) {
         let (depth_max_m, period_s) = (dice.between(0.5, water.depth_m), dice.seconds(0.02, 3.0));
         writeln!(text, "[group.sensors.gnss]\ndepth_max_m = {depth_max_m}\nperiod_s = {period_s}")?;
         writeln!(text, "position_error_m = {}\ntime_error_s = {}", dice.errors(5.0), dice.error(1e-2))?;
     }
-    writeln!(text, "[group.modem]\nrange_m = {}", dice.magnitude(5.0, 4.0 * water.side_m + 5.0))?;
-    match dice.chance(0.1) {
-        true => writeln!(text, "ping_period_s = false")?,
-        false => writeln!(text, "ping_period_s = {}", dice.seconds(0.05, 3.0))?,
-    }
-    writeln!(text, "timestamp_error_s = {}", dice.error(1e-3))?;
     Ok(())
 }
 

@@ -1,9 +1,9 @@
 //! No enclosure ever loses the truth, and windows never change a run: over the library and over scenarios drawn at random.
 
-use shoal_bus::summary::Summary;
+use shoal_bus::summary::{Lost, Summary};
 use shoal_scenario::model::{Noise, Scenario};
 use shoal_scenario::{library, parse};
-use shoal_tests::{Dice, library_scenario, random_scenario, run_local};
+use shoal_tests::{Dice, library_scenario, random_scenario, random_sea_scenario, run_local};
 
 /// Carries out `count` cases on all cores.
 fn side_by_side(count: u64, case: impl Fn(u64) + Sync) {
@@ -25,7 +25,14 @@ fn side_by_side(count: u64, case: impl Fn(u64) + Sync) {
 }
 
 fn random(number: u64, duration_s: f64) -> (Scenario, String) {
-    let text = random_scenario(number, duration_s);
+    valid(random_scenario(number, duration_s))
+}
+
+fn random_sea(number: u64, duration_s: f64) -> (Scenario, String) {
+    valid(random_sea_scenario(number, duration_s))
+}
+
+fn valid(text: String) -> (Scenario, String) {
     let scenario =
         parse("random.toml", &text).unwrap_or_else(|errors| panic!("{}\n{text}", errors.render(false)));
     (scenario, text)
@@ -40,7 +47,18 @@ fn scenarios(default: u64) -> u64 {
 fn pings_add_up(summary: &Summary) -> bool {
     let pings = &summary.pings;
     let lost = &pings.lost;
-    let fates = pings.heard + lost.range + lost.noise + lost.collision + lost.half_duplex + lost.dead;
+    let heard_or_not = [
+        pings.heard,
+        lost.range,
+        lost.noise,
+        lost.collision,
+        lost.half_duplex,
+        lost.shadow,
+        lost.asleep,
+        lost.band,
+        lost.dead,
+    ];
+    let fates: u64 = heard_or_not.iter().sum();
     pings.emitted * u64::from(summary.auvs - 1) == fates + pings.in_flight
 }
 
@@ -99,20 +117,82 @@ fn random_scenarios_keep_the_truth() {
 }
 
 #[test]
-fn windows_never_change_a_random_scenario() {
-    side_by_side(scenarios(60), |number| {
-        let (scenario, text) = random(1_000_000 + number, 6.0);
-        let longest_ns = scenario
-            .groups
-            .iter()
-            .map(|group| shoal_scenario::window_limit_ns(group.reaction_ns, group.clock.drift_bound));
-        let longest_ns = longest_ns.min().unwrap();
-        let mut dice = Dice::new(number);
-        let drawn_ns = dice.whole(3_000_000, longest_ns as u64) as i64;
-        let reference = run_local(&scenario, None);
-        for window_ns in [longest_ns, 7_654_321, 10_000_000, drawn_ns] {
-            let other = run_local(&scenario, Some(window_ns));
-            assert!(other == reference, "{window_ns} ns: {other:#?}\n{reference:#?}\n{text}");
-        }
+fn random_seas_keep_the_truth() {
+    let told = std::sync::Mutex::new(([0_u64; 4], Lost::default()));
+    side_by_side(scenarios(200), |number| {
+        let (scenario, text) = random_sea(number, 20.0);
+        let summary = run_local(&scenario, None);
+        let containment = &summary.containment;
+        assert_eq!(containment.violations, 0, "{:#?}\n{text}", containment.first);
+        assert!(summary.agents.lost.is_empty(), "{:?}\n{text}", summary.agents.lost);
+        let pings = &summary.pings;
+        assert!(pings_add_up(&summary), "{pings:?}\n{text}");
+        // Only what came the long way round misleads.
+        assert!(containment.misled.violations == 0 || pings.outliers > 0, "{containment:?}\n{text}");
+        let (counts, lost) = &mut *told.lock().unwrap();
+        counts[0] += containment.checks;
+        counts[1] += pings.heard;
+        counts[2] += pings.outliers;
+        counts[3] += u64::from(containment.misled.violations > 0);
+        add(lost, &pings.lost);
     });
+    let ([checks, heard, outliers, misled], lost) = told.into_inner().unwrap();
+    println!(
+        "{checks} checks, {heard} pings heard, {outliers} outliers, somebody misled {misled} times, {lost:?}"
+    );
+    let reasons = [
+        lost.range,
+        lost.noise,
+        lost.collision,
+        lost.half_duplex,
+        lost.shadow,
+        lost.asleep,
+        lost.band,
+        lost.busy,
+    ];
+    let least = reasons.into_iter().chain([outliers, misled]).min();
+    assert!(checks > 50_000 && heard > 2_000 && least > Some(0), "the seas are too dull to prove anything");
+}
+
+/// Adds up losses over scenarios.
+fn add(sum: &mut Lost, lost: &Lost) {
+    sum.range += lost.range;
+    sum.noise += lost.noise;
+    sum.collision += lost.collision;
+    sum.half_duplex += lost.half_duplex;
+    sum.shadow += lost.shadow;
+    sum.asleep += lost.asleep;
+    sum.band += lost.band;
+    sum.busy += lost.busy;
+    sum.unsent += lost.unsent;
+    sum.late += lost.late;
+    sum.dead += lost.dead;
+}
+
+#[test]
+fn windows_never_change_a_random_scenario() {
+    side_by_side(scenarios(60), |number| windows_never_change(number, random(1_000_000 + number, 6.0)));
+}
+
+#[test]
+fn windows_never_change_a_random_sea() {
+    side_by_side(scenarios(60), |number| windows_never_change(number, random_sea(1_000_000 + number, 6.0)));
+}
+
+/// Carries a scenario out in its own windows, the longest, odd, round and drawn ones.
+fn windows_never_change(number: u64, (scenario, text): (Scenario, String)) {
+    let limits = scenario
+        .groups
+        .iter()
+        .map(|group| shoal_scenario::window_limit_ns(group.reaction_ns, group.clock.drift_bound));
+    let longest_ns = limits.min().unwrap();
+    let drawn_ns = Dice::new(number).whole(3_000_000, longest_ns as u64) as i64;
+    let reference = run_local(&scenario, None);
+    for window_ns in [longest_ns, 7_654_321, 10_000_000, 25_000_000, 50_000_000, 90_000_000, drawn_ns] {
+        if window_ns > longest_ns {
+            continue;
+        }
+        let other = run_local(&scenario, Some(window_ns));
+        assert!(other == reference, "{window_ns} ns: {other:#?}\n{reference:#?}\n{text}");
+    }
 }

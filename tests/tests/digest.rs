@@ -1,7 +1,7 @@
 //! One scenario and one seed give one digest and one record, whatever carries them out.
 
 use serde_json::Value;
-use shoal_tests::{Command, alone};
+use shoal_tests::{Command, alone, scenario_file};
 
 const BUSES: [&str; 3] = ["local", "iceoryx2", "zenoh"];
 
@@ -91,6 +91,29 @@ fn records_of_equal_runs_are_the_same_bytes() {
         }
         let another = record("other.mcap", &format!("run {scenario} --seed 99"));
         assert!(another != reference);
+    }
+}
+
+#[test]
+fn a_small_sea_on_every_bus_and_in_every_window() {
+    let run = |bus: &str, window_ms: &str| {
+        let command = Command::new("run").with(scenario_file("three-accesses")).and("--bus").with(bus);
+        let summary = command.and("--window").with(window_ms).json();
+        let (seen, violations) = (&summary["pings"], &summary["containment"]["violations"]);
+        assert_eq!((&summary["reproducible"], violations), (&true.into(), &0.into()), "{seen}");
+        // All that makes this sea a sea happens in it.
+        let some = |count: &Value| count.as_u64().unwrap() > 0;
+        assert!(some(&seen["heard"]) && some(&seen["outliers"]), "{seen}");
+        for reason in ["collision", "half_duplex", "asleep", "band", "busy"] {
+            assert!(some(&seen["lost"][reason]), "{reason}: {seen}");
+        }
+        text(&summary["digest"])
+    };
+    let reference = run("local", "90");
+    for bus in BUSES {
+        for window_ms in ["90", "10", "25", "50"] {
+            assert_eq!(run(bus, window_ms), reference, "{bus} {window_ms}");
+        }
     }
 }
 

@@ -61,11 +61,11 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
         }
     };
     let scenario = order.scenario()?;
+    let mut channel = Channel::new(&scenario).map_err(Failure::failed)?;
     let recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, &scenario, &order.text)?),
+        Some(path) => Some(Recorder::create(path, &scenario, &order.text, &channel.born())?),
         None => None,
     };
-    let mut channel = Channel::new(&scenario).map_err(Failure::failed)?;
     let launched = match order.bus {
         Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
         Bus::Iceoryx2 => {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::localize::LocalizeArgs;
 use crate::plot::Kind;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
@@ -43,6 +44,14 @@ pub enum Command {
         after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
     )]
     Tap(TapArgs),
+    /// Find out where AUVs were, after the run: all trajectories of a record together, or one vehicle from files
+    #[command(
+        after_help = "From a record it writes a copy that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\
+        Examples:\n  shoal run six-circles --record circles.mcap\n  shoal localize circles.mcap --offline\n  \
+        shoal plot circles.offline.mcap tubes --auv 3 -o tubes.svg\n  shoal localize --dataset goats02 -o track.svg\n  \
+        shoal localize --dataset goats02 --estimator ekf --gate 0 --json\n  shoal localize --dataset goats02 --start unknown"
+    )]
+    Localize(LocalizeArgs),
     /// Draw a figure (SVG) of what a record holds
     #[command(
         after_help = "Examples:\n  shoal run six-circles --record circles.mcap\n  shoal plot circles.mcap losses -o losses.svg\n  \
@@ -187,6 +196,9 @@ pub struct PlotArgs {
     /// For `rays`: depth of the source in metres; that of the first ping unless given
     #[arg(long, value_name = "METRES")]
     pub depth_m: Option<f64>,
+    /// For `tubes`: of which AUV, counted from 0
+    #[arg(long, value_name = "N")]
+    pub auv: Option<u32>,
     /// For `rays`: how far to follow them, in metres; as far as pings went unless given
     #[arg(long, value_name = "METRES")]
     pub range_m: Option<f64>,

@@ -10,6 +10,7 @@ mod exit;
 mod failure;
 mod figure;
 mod launch;
+mod localize;
 mod memory;
 mod observers;
 mod plot;
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
 fn command(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Run(args) => run::run(args),
+        Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use shoal_bus::chronicle::{Entry, What};
+use shoal_bus::message::Born;
 use shoal_bus::record::{RecordHeader, RecordWriter, RecordedAuv};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::summary::Summary;
@@ -26,7 +27,7 @@ pub struct Recorder {
 
 impl Recorder {
     /// Begins the record at `path`.
-    pub fn create(path: &Path, scenario: &Scenario, text: &str) -> Result<Self, Failure> {
+    pub fn create(path: &Path, scenario: &Scenario, text: &str, born: &[Born]) -> Result<Self, Failure> {
         let wrong = |error: &dyn std::fmt::Display| {
             Failure::failed(format!("{}: {error}; choose another place with --record", path.display()))
         };
@@ -38,7 +39,9 @@ impl Recorder {
             scenario_text: text.to_owned(),
             auvs: recorded_auvs(scenario),
         };
-        let writer = RecordWriter::create(BufWriter::new(file), &header).map_err(|error| wrong(&error))?;
+        let mut writer =
+            RecordWriter::create(BufWriter::new(file), &header).map_err(|error| wrong(&error))?;
+        writer.born(born).map_err(|error| wrong(&error))?;
         Ok(Self { path: path.to_owned(), writer: Some(writer), failure: None })
     }
 

@@ -7,9 +7,10 @@
 //! | `reach.rs` | where pings are heard, over range and depth |
 //! | `rays.rs` | which way sound goes in the run's water |
 //! | `sinr.rs` | how far a packet stands out of the noise, over range |
+//! | `tubes.rs` | what is known of one AUV: without pings, online, offline |
 //!
 //! Each is a [`Plot`]: it takes the rows of the record one by one and ends as a figure. What it keeps does not grow with the
-//! record.
+//! record, but for `tubes`, which keeps what is known of its AUV at every tick.
 
 mod depths;
 mod fate;
@@ -19,6 +20,7 @@ mod rays;
 mod reach;
 mod sinr;
 mod thinned;
+mod tubes;
 mod water;
 mod way;
 
@@ -47,6 +49,8 @@ pub enum Kind {
     Rays,
     /// Signal over noise and interference, over range
     Sinr,
+    /// Clock and x of one AUV without pings, online and offline, with the truth inside; for what `localize --offline` writes
+    Tubes,
 }
 
 /// A figure in the making.
@@ -63,9 +67,15 @@ trait Plot {
 
 /// Draws a figure of a record. A record that was cut is drawn as far as it goes.
 pub fn plot(args: &PlotArgs) -> Result<Exit, Failure> {
-    let given = [("--depth-m", args.depth_m.is_some()), ("--range-m", args.range_m.is_some())];
-    if let Some((flag, _)) = given.iter().find(|(_, is_given)| *is_given && args.kind != Kind::Rays) {
-        return Err(Failure::usage(format!("{flag} is for `rays`: leave it out")));
+    let flags = [
+        ("--depth-m", args.depth_m.is_some(), Kind::Rays, "rays"),
+        ("--range-m", args.range_m.is_some(), Kind::Rays, "rays"),
+        ("--auv", args.auv.is_some(), Kind::Tubes, "tubes"),
+    ];
+    if let Some((flag, _, _, name)) =
+        flags.iter().find(|(_, is_given, kind, _)| *is_given && args.kind != *kind)
+    {
+        return Err(Failure::usage(format!("{flag} is for `{name}`: leave it out")));
     }
     let path = args.record.display();
     let wrong = |error: &dyn std::fmt::Display| Failure::failed(format!("{path}: {error}"));
@@ -92,6 +102,7 @@ fn plot_of(args: &PlotArgs) -> Box<dyn Plot> {
         Kind::Reach => Box::<reach::Reach>::default(),
         Kind::Rays => Box::new(rays::Rays::new(args.depth_m, args.range_m)),
         Kind::Sinr => Box::<sinr::Sinr>::default(),
+        Kind::Tubes => Box::new(tubes::Tubes::new(args.auv.unwrap_or(0))),
     }
 }
 

@@ -139,11 +139,11 @@ fn in_this_program(
     bar: &Bar,
 ) -> Result<Done, Failure> {
     let began = Instant::now();
+    let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, scenario, &order.text)?),
+        Some(path) => Some(Recorder::create(path, scenario, &order.text, &channel.born())?),
         None => None,
     };
-    let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut fleet = Local::new(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
     channel.stillborn(losses);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use shoal_bus::summary::{Summary, ViolationLine};
+use shoal_bus::summary::{EstimatorLine, Summary, ViolationLine};
 
 /// A dozen lines that say what a run amounts to.
 pub fn render(summary: &Summary) -> String {
@@ -53,6 +53,9 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             "                counted apart: {auvs} misled by what they heard, {} enclosures without the truth",
             grouped(misled.violations)
         )?;
+    }
+    if is_comparison(&summary.estimators) {
+        write_estimators(text, &summary.estimators)?;
     }
     writeln!(
         text,
@@ -122,6 +125,46 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
     }
     let reproducible = if summary.reproducible { "reproducible" } else { "NOT reproducible" };
     writeln!(text, "  digest        {} ({reproducible})", summary.digest)
+}
+
+/// Whether there is something to compare, or an estimator whose boxes nobody promises to hold the truth.
+fn is_comparison(estimators: &[EstimatorLine]) -> bool {
+    let kind = |line: &EstimatorLine| (line.estimator.clone(), line.fusion.clone());
+    let differ = estimators.iter().zip(estimators.iter().skip(1)).any(|(one, next)| kind(one) != kind(next));
+    differ || estimators.iter().any(|line| line.estimator == "ekf")
+}
+
+/// A line for each group; NEES is the mean over position and clock, 4 for an honest Gaussian.
+fn write_estimators(text: &mut String, estimators: &[EstimatorLine]) -> std::fmt::Result {
+    let name = |line: &EstimatorLine| match line.fusion.as_deref() {
+        Some("covariance-intersection") => format!("{} (CI)", line.estimator),
+        _ => line.estimator.clone(),
+    };
+    writeln!(
+        text,
+        "  estimators    {:<14} {:<14} {:>6} {:>13} {:>10} {:>12} {:>10}",
+        "group", "", "AUVs", "truth inside", "NEES (4)", "RMS error", "width"
+    )?;
+    for line in estimators {
+        let nees = line.nees_mean.map_or("-".to_owned(), |nees| bounded(nees, ""));
+        writeln!(
+            text,
+            "                {:<14} {:<14} {:>6} {:>11.3} % {nees:>10} {:>12} {:>10}",
+            line.group,
+            name(line),
+            grouped(line.auvs.into()),
+            // Cut off, so that 100 % is all of them.
+            (line.contained_fraction * 1e5).floor() / 1e3,
+            bounded(line.centre_rms_m, " m"),
+            bounded(line.width_median_m, " m"),
+        )?;
+    }
+    Ok(())
+}
+
+/// With two digits after the point; summaries tell what has no bound as the largest number there is.
+fn bounded(value: f64, unit: &str) -> String {
+    if value < 1e9 { format!("{value:.2}{unit}") } else { "unbounded".to_owned() }
 }
 
 fn describe(violation: &ViolationLine) -> String {

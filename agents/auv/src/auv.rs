@@ -2,14 +2,18 @@
 
 use shoal_bus::lockstep::Mind;
 use shoal_bus::message::{
-    Acted, Born, Culprit, Emptied, Estimator as EstimatorOrders, Report, Sabotage, Sensed, Setpoint, Slice,
+    Acted, Around, Born, Culprit, Emptied, Estimator as EstimatorOrders, Report, Sabotage, Sensed, Setpoint,
+    Slice,
 };
 use shoal_bus::time::NS_PER_S;
 
 use crate::bounds::{bounds, bounds_box};
 use crate::controller::{self, Belief, Controller};
+use crate::dead_reckoning::DeadReckoning;
+use crate::ekf::Ekf;
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::modem::Modem;
+use crate::relative::Neighbourhood;
 use crate::sabotage;
 use crate::set_observer::SetObserver;
 use crate::state::State;
@@ -20,6 +24,7 @@ pub struct Auv {
     born: Born,
     estimator: Box<dyn Estimator>,
     controller: Box<dyn Controller>,
+    neighbourhood: Option<Neighbourhood>,
     modem: Modem,
     lead_s: f64,
 }
@@ -28,19 +33,20 @@ impl Auv {
     /// The mind of a newborn.
     pub fn new(born: &Born) -> Self {
         let believed = sabotage::believed(born);
-        let estimator = match born.orders.estimator {
+        let estimator: Box<dyn Estimator> = match born.orders.estimator {
             EstimatorOrders::Tube(settings) if SetObserver::is_asked_for(born, &settings) => {
-                Box::new(SetObserver::new(&believed, &settings)) as Box<dyn Estimator>
+                Box::new(SetObserver::new(&believed, &settings))
             }
-            EstimatorOrders::Tube(_) | EstimatorOrders::Ekf(_) | EstimatorOrders::DeadReckoning => {
-                Box::new(TubeEstimator::new(&believed))
-            }
+            EstimatorOrders::Tube(_) => Box::new(TubeEstimator::new(&believed)),
+            EstimatorOrders::Ekf(settings) => Box::new(Ekf::new(&believed, settings)),
+            EstimatorOrders::DeadReckoning => Box::new(DeadReckoning::new(&believed)),
         };
         let orders = &born.orders;
         let lead_ns = born.wake.reaction_ns + born.wake.period_ns / 2;
         Self {
             estimator,
             controller: controller::ordered(&orders.controller, &born.prior_position_m, &orders.area_m),
+            neighbourhood: orders.relative.map(|relative| Neighbourhood::new(&believed, relative)),
             modem: Modem::new(born),
             lead_s: lead_ns as f64 / NS_PER_S as f64,
             born: born.clone(),
@@ -56,6 +62,12 @@ impl Auv {
             velocity_m_s: now.velocity_m_s.mid(),
             lead_s: self.lead_s,
         }
+    }
+
+    /// The neighbours that it follows.
+    fn around(&self, state: &State) -> Vec<Around> {
+        let around = self.neighbourhood.iter().flat_map(|neighbourhood| neighbourhood.around(state));
+        around.map(|(auv, at_m)| Around { auv, position_m: at_m.sides().map(bounds) }).collect()
     }
 
     /// The estimate as it is reported; clock offsets are told against stamps, which may be off by the stamp's tolerance.
@@ -75,6 +87,7 @@ impl Auv {
             },
             emptied,
             neighbours,
+            around: self.around(&estimate.state),
             contractions: estimate.contractions,
             rejected: estimate.rejected,
             components: estimate.components,
@@ -86,6 +99,9 @@ impl Auv {
 impl Mind for Auv {
     fn step(&mut self, sensed: &Sensed) -> Acted {
         let estimate = self.estimator.update(sensed);
+        if let Some(neighbourhood) = &mut self.neighbourhood {
+            neighbourhood.update(sensed, &estimate.state);
+        }
         let now = self.estimator.predict(sensed.stamp);
         let steering = self.controller.steer(sensed, &self.belief(&estimate, &now));
         let through_water_m_s =
@@ -95,7 +111,7 @@ impl Mind for Auv {
         for booking in self.modem.due(sensed, &|at| self.estimator.predict(at).time_s) {
             let mut prediction = self.estimator.predict(booking.at);
             if self.born.orders.sabotage == Some(Sabotage::LyingPing) {
-                prediction.position_m = sabotage::elsewhere(&prediction.position_m);
+                sabotage::lie(&mut prediction);
             }
             pings.extend(self.modem.plan(booking, &prediction));
         }

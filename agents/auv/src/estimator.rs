@@ -50,4 +50,6 @@ pub struct Prediction {
     pub velocity_m_s: IntervalBox<3>,
     /// The current in m/s.
     pub current_m_s: IntervalBox<3>,
+    /// What a Kalman filter believes: position in metres and true time in seconds. The intervals above promise nothing then.
+    pub gaussian: Option<Gaussian>,
 }

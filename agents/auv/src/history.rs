@@ -28,6 +28,11 @@ impl History {
         State::of_box(&self.tube.last_gate())
     }
 
+    /// Bytes of heap in use.
+    pub fn memory_bytes(&self) -> usize {
+        self.tube.memory_bytes()
+    }
+
     /// Adds the time since the end, up to `stamp`: everywhere it was in `slice`, at the end in `state`. Forgets what lies
     /// beyond the horizon, so memory is bounded by it.
     ///

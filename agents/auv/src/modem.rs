@@ -1,8 +1,8 @@
 //! The modem: books pings when medium access says so, and fills them with a prediction of the own position for the moment
-//! of emission, rounded outwards.
+//! of emission, rounded outwards: as intervals, or as a Gaussian if that is what the AUV believes in.
 
 use shoal_bus::message::{AuvId, Born, PlannedPing, Sensed, Wake};
-use shoal_bus::ping::{Frame, FrameError, Ping};
+use shoal_bus::ping::{Frame, FrameError, GaussianPing, Ping};
 use shoal_bus::time::LocalTime;
 use shoal_interval::Interval;
 
@@ -41,6 +41,18 @@ impl Modem {
     }
 
     fn frame(&self, prediction: &Prediction) -> Result<Frame, FrameError> {
+        if let Some(belief) = &prediction.gaussian {
+            let [x, y, z, emission_s] = belief.mean;
+            return GaussianPing {
+                sender: self.auv,
+                sequence: self.sequence,
+                emission_s,
+                position_m: [x, y, z],
+                covariance: belief.covariance,
+                velocity_m_s: prediction.velocity_m_s.mid().into(),
+            }
+            .encode();
+        }
         Ping {
             sender: self.auv,
             sequence: self.sequence,

@@ -78,6 +78,11 @@ impl Motion {
         known_m_s.inflate(self.slope() * self.longest(elapsed_s)).intersection(&self.any_velocity())
     }
 
+    /// The current anywhere, in m/s.
+    pub fn any_current(&self) -> IntervalBox<3> {
+        self.current_m_s
+    }
+
     /// Velocity over ground, in m/s, from that through the water and the current.
     pub fn over_ground(&self, velocity_m_s: &IntervalBox<3>, current_m_s: &IntervalBox<3>) -> IntervalBox<3> {
         *velocity_m_s + (*current_m_s + self.disturbance_m_s)
@@ -110,10 +115,11 @@ impl Motion {
             let envelope = Envelope::new(self, stretch, axis);
             let (mean, reached) = envelope.between(from_s, to_s);
             let drift = stretch.current_m_s[axis] + self.disturbance_m_s[axis];
-            // dt = (1 + gain) ds: the mean for the 1, every velocity reached for the gain.
-            displacement_m[axis] =
-                (mean + reached * self.gain + drift * (Interval::ONE + self.gain)) * elapsed_s;
             within_m[axis] = (reached + drift) * (Interval::ONE + self.gain) * so_far_s;
+            // dt = (1 + gain) ds: the mean for the 1, every velocity reached for the gain. Where the clock is bad and the velocity
+            // nearly known, the gain of each velocity is worth more than the mean.
+            let by_mean = mean + reached * self.gain + drift * (Interval::ONE + self.gain);
+            displacement_m[axis] = (by_mean * elapsed_s).intersection(within_m[axis]);
         }
         Moved {
             displacement_m: IntervalBox::from(displacement_m),

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use shoal_bus::message::{AuvId, Fleetmates, Sense, Sensed, box_width};
-use shoal_bus::ping::Ping;
+use shoal_bus::message::{AuvId, BoundsBox, Fleetmates, Sense, Sensed, box_width};
+use shoal_bus::ping::Payload;
 use shoal_bus::time::LocalTime;
 
-/// One neighbour as its last ping showed it: middles of intervals, for steering, never for enclosures.
+/// One neighbour as its last ping showed it: middles of intervals or means, for steering, never for enclosures.
 #[derive(Clone, Copy, Debug)]
 struct Neighbour {
     heard: LocalTime,
@@ -15,6 +15,28 @@ struct Neighbour {
     position_m: Vector3<f64>,
     velocity_m_s: Vector3<f64>,
     box_width_m: f64,
+}
+
+impl Neighbour {
+    fn new(payload: &Payload, heard: LocalTime) -> Self {
+        let middle = |sides: BoundsBox| Vector3::from(sides.map(|side| side.mid()));
+        match payload {
+            Payload::Intervals(ping) => Self {
+                heard,
+                emission_s: ping.emission_s.mid(),
+                position_m: middle(ping.position_m),
+                velocity_m_s: middle(ping.velocity_m_s),
+                box_width_m: box_width(&ping.position_m),
+            },
+            Payload::Gaussian(ping) => Self {
+                heard,
+                emission_s: ping.emission_s,
+                position_m: ping.position_m.into(),
+                velocity_m_s: ping.velocity_m_s.into(),
+                box_width_m: box_width(&ping.position_box_m()),
+            },
+        }
+    }
 }
 
 /// Where a neighbour should be now.
@@ -42,17 +64,9 @@ impl Neighbours {
     pub fn listen(&mut self, sensed: &Sensed, forget_ns: i64) {
         for event in &sensed.events {
             let Sense::Heard { frame } = &event.sense else { continue };
-            let Ok(ping) = Ping::decode(frame) else { continue };
-            let middle =
-                |bounds: [shoal_bus::message::Bounds; 3]| Vector3::from(bounds.map(|side| side.mid()));
-            let neighbour = Neighbour {
-                heard: event.stamp,
-                emission_s: ping.emission_s.mid(),
-                position_m: middle(ping.position_m),
-                velocity_m_s: middle(ping.velocity_m_s),
-                box_width_m: box_width(&ping.position_m),
-            };
-            let last = self.last.entry(ping.sender).or_insert(neighbour);
+            let Ok(payload) = Payload::decode(frame) else { continue };
+            let neighbour = Neighbour::new(&payload, event.stamp);
+            let last = self.last.entry(payload.sender()).or_insert(neighbour);
             if last.heard <= neighbour.heard {
                 *last = neighbour;
             }
@@ -84,6 +98,7 @@ pub fn trusted(fleets: &[Fleetmates], auv: AuvId) -> bool {
 #[cfg(test)]
 mod tests {
     use shoal_bus::message::{Bounds, Event};
+    use shoal_bus::ping::{GaussianPing, Ping};
 
     use super::*;
 
@@ -108,6 +123,26 @@ mod tests {
         assert_eq!(hear(600, 2.0), Some(1.0));
         assert_eq!(hear(800, 3.0), Some(3.0));
         assert_eq!(hear(800, 4.0), Some(4.0));
+    }
+
+    #[test]
+    fn a_believer_in_gaussians_is_a_neighbour_like_any_other() {
+        let ping = GaussianPing {
+            sender: AuvId(4),
+            sequence: 0,
+            emission_s: 10.0,
+            position_m: [100.0, 0.0, -8.0],
+            covariance: [4.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1e-6],
+            velocity_m_s: [1.5, 0.0, 0.0],
+        };
+        let events =
+            vec![Event { stamp: LocalTime::ZERO, sense: Sense::Heard { frame: ping.encode().unwrap() } }];
+        let mut neighbours = Neighbours::default();
+        neighbours.listen(&Sensed { tick: 0, stamp: LocalTime::ZERO, events }, 500);
+        let there = neighbours.at(12.0).next().unwrap();
+        assert_eq!((there.auv, there.position_m), (AuvId(4), Vector3::new(103.0, 0.0, -8.0)));
+        // Three standard deviations to either side, and what rounding outwards adds.
+        assert!((12.0..14.0).contains(&there.box_width_m), "{}", there.box_width_m);
     }
 
     #[test]

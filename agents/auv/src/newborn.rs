@@ -45,6 +45,7 @@ pub fn newborn(access: MediumAccess) -> Born {
             access,
             area_m: [Bounds::new(-1e4, 1e4); 3],
             sabotage: None,
+            relative: None,
         },
     }
 }

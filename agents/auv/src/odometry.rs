@@ -29,6 +29,15 @@ impl Way {
         Self { displacement_m: IntervalBox::from([Interval::ZERO; 3]), offset_gain_s: Interval::ZERO }
     }
 
+    /// Between two moments that are at most `elapsed_s` local seconds apart, whichever is the earlier.
+    pub fn within(motion: &Motion, elapsed_s: f64) -> Self {
+        let offset_gain_s = motion.offset_gain(elapsed_s);
+        Self {
+            displacement_m: motion.anywhere_within(elapsed_s),
+            offset_gain_s: offset_gain_s.hull(-offset_gain_s),
+        }
+    }
+
     /// This way, and then `next`.
     pub fn then(&self, next: &Way) -> Self {
         Self {
@@ -95,6 +104,16 @@ impl Odometry {
         while self.legs.front().is_some_and(|leg| leg.ended < oldest) {
             self.legs.pop_front();
         }
+    }
+
+    /// The leg that ended last.
+    pub fn last(&self) -> Option<&Leg> {
+        self.legs.back()
+    }
+
+    /// Bytes of heap in use.
+    pub fn memory_bytes(&self) -> usize {
+        self.legs.capacity() * size_of::<Leg>()
     }
 
     /// The state at `stamp` as it was known then, and the way from there to the last tick. None when `stamp` is not

@@ -61,8 +61,68 @@ impl Ring {
             contract_range(&mut position_m, &mut centre_m, &mut speed_m_s, &mut reception_s, &mut emission_s);
         let offset_s = state.offset_s.intersection(reception_s - self.arrival_s + self.since.offset_gain_s);
         if contracted == Contracted::Empty || offset_s.is_empty() {
-            return Err(Contradiction(Culprit::Ping(self.sender)));
+            return Err(self.contradiction());
         }
         Ok(State { offset_s, position_m })
     }
+
+    /// That this ping leaves nothing.
+    pub fn contradiction(&self) -> Contradiction {
+        Contradiction(Culprit::Ping(self.sender))
+    }
 }
+
+/// The last pings, the newest last, as far back as the horizon.
+#[derive(Debug)]
+pub struct Rings {
+    most: usize,
+    horizon_s: f64,
+    rings: Vec<Ring>,
+}
+
+impl Rings {
+    /// None heard yet; later no more than `most`, and none that arrived more than `horizon_s` local seconds ago.
+    pub fn new(most: usize, horizon_s: f64) -> Self {
+        Self { most, horizon_s, rings: Vec::with_capacity(most) }
+    }
+
+    /// All of them, the oldest first.
+    pub fn as_slice(&self) -> &[Ring] {
+        &self.rings
+    }
+
+    /// Bytes of heap in use.
+    pub fn memory_bytes(&self) -> usize {
+        self.rings.capacity() * size_of::<Ring>()
+    }
+
+    /// Adds the newest. The oldest makes room for it.
+    pub fn push(&mut self, ring: Ring) {
+        if self.most == 0 {
+            return;
+        }
+        if self.rings.len() == self.most {
+            self.rings.remove(0);
+        }
+        self.rings.push(ring);
+    }
+
+    /// All go along with the body.
+    pub fn carry(&mut self, way: &Way) {
+        self.rings.iter_mut().for_each(|ring| ring.carry(way));
+    }
+
+    /// Forgets those beyond the horizon of a local time.
+    pub fn forget(&mut self, now_s: f64) {
+        let oldest_s = now_s - self.horizon_s;
+        self.rings.retain(|ring| ring.arrival_s.upper() >= oldest_s);
+    }
+
+    /// Forgets so many of the newest.
+    pub fn drop_newest(&mut self, count: usize) {
+        self.rings.truncate(self.rings.len().saturating_sub(count));
+    }
+}
+
+#[cfg(test)]
+mod tests;

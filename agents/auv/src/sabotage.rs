@@ -3,6 +3,8 @@
 use shoal_bus::message::{Born, Sabotage};
 use shoal_interval::{Interval, IntervalBox};
 
+use crate::estimator::Prediction;
+
 /// The tick at which [`Sabotage::EmptySet`] strikes.
 pub const EMPTYING_TICK: u64 = 10;
 
@@ -15,9 +17,12 @@ pub fn believed(born: &Born) -> Born {
     believed
 }
 
-/// A box ten metres and its own width east of where it should be.
-pub fn elsewhere(position_m: &IntervalBox<3>) -> IntervalBox<3> {
-    let away_m = Interval::point(10.0 + position_m.width()).unwrap_or(Interval::ZERO);
-    let [x, y, z] = position_m.sides();
-    IntervalBox::from([x + away_m, y, z])
+/// Moves a prediction ten metres and the width of its box east of where it should be.
+pub fn lie(prediction: &mut Prediction) {
+    let away_m = 10.0 + prediction.position_m.width();
+    let [x, y, z] = prediction.position_m.sides();
+    prediction.position_m = IntervalBox::from([x + Interval::point(away_m).unwrap_or(Interval::ZERO), y, z]);
+    if let Some(gaussian) = &mut prediction.gaussian {
+        gaussian.mean[0] += away_m;
+    }
 }

@@ -31,7 +31,7 @@ use crate::odometry::{Leg, Odometry, Way};
 use crate::relaxed::{Observed, Window};
 use crate::rings::Ring;
 use crate::state::{Contradiction, Sound, State};
-use crate::travel::{Travel, seconds};
+use crate::travel::{Travel, local_s, seconds};
 
 /// The window of an AUV whose orders keep no rings and assume no outliers.
 const WINDOW_DEFAULT: u16 = 12;
@@ -111,21 +111,22 @@ impl SetObserver {
 
     /// Exact local time of something stamped `stamp`, in seconds.
     fn local_s(&self, stamp: LocalTime) -> Interval {
-        let seconds = stamp.as_s();
-        Interval::centred(seconds, self.stamp_s + seconds.abs() * f64::EPSILON)
+        local_s(stamp, self.stamp_s)
     }
 
     fn carry(&mut self, way: &Way) {
         self.states.carry(way);
         self.window.carry(way);
-        self.certain_offset_s = self.certain_offset_s + way.offset_gain_s;
+        self.certain_offset_s += way.offset_gain_s;
     }
 
     /// Takes in an event that is stamped `lag_s` local seconds before now; `way` leads here from the last tick.
     fn inform(&mut self, way: &Way, event: &Event, lag_s: f64) -> Told {
         let stamp_s = self.local_s(event.stamp);
         match &event.sense {
-            Sense::Inertial { .. } | Sense::Dvl { .. } | Sense::Held => Told::default(),
+            Sense::Inertial { .. } | Sense::Dvl { .. } | Sense::Bearing { .. } | Sense::Held => {
+                Told::default()
+            }
             Sense::Depth { depth_m } => self.believe(Culprit::Depth, |state| state.with_depth(*depth_m)),
             Sense::Gnss { position_m, time_s } => {
                 let (position_m, time_s) = (interval_box(position_m), interval(*time_s));
@@ -156,12 +157,7 @@ impl SetObserver {
             let (_, since) = self.odometry.recall(stamp, motion)?;
             (since.then(way), apart_s)
         };
-        let offset_gain_s = motion.offset_gain(apart_s);
-        let around = Way {
-            displacement_m: motion.anywhere_within(apart_s),
-            offset_gain_s: offset_gain_s.hull(-offset_gain_s),
-        };
-        Some(around.then(&since))
+        Some(Way::within(motion, apart_s).then(&since))
     }
 
     /// A measurement that is beyond doubt contracts all that is remembered.

@@ -1,12 +1,10 @@
 //! The state of an AUV as a set: its position, and the true time as one more coordinate.
 
 use shoal_bus::message::{Culprit, Measured};
-use shoal_bus::ping::Ping;
-use shoal_interval::contractor::{Contracted, contract_range};
 use shoal_interval::{Interval, IntervalBox};
 
-use crate::bounds::{interval, interval_box, measured};
-use crate::motion::{Motion, Moved};
+use crate::bounds::measured;
+use crate::motion::Moved;
 
 /// Encloses position and clock at one moment of local time.
 ///
@@ -18,15 +16,6 @@ pub struct State {
     pub offset_s: Interval,
     /// Position in metres.
     pub position_m: IntervalBox<3>,
-}
-
-/// A moment of local time at which something was measured.
-#[derive(Clone, Copy, Debug)]
-pub struct Moment {
-    /// Its stamp in seconds of local time.
-    pub stamp_s: Interval,
-    /// Local seconds by which it may differ from the moment of the state that is contracted.
-    pub apart_s: f64,
 }
 
 /// What is certain about sound, whoever it comes from.
@@ -127,45 +116,14 @@ impl State {
         .unless_empty(Culprit::Gnss)
     }
 
-    /// Contracts by a ping: the receiver at arrival lies as far from the emitter at emission as sound travels in between,
-    /// `|p_i - p(s)| in [c] ([t](s) - [a])` (seed 001, equation 5.7), and no farther than sound is heard.
-    pub fn with_ping(
-        &self,
-        ping: &Ping,
-        sound: &Sound,
-        arrival: &Moment,
-        motion: &Motion,
-    ) -> Result<Self, Contradiction> {
-        let nearby_m = motion.anywhere_within(arrival.apart_s);
-        let offset_gain_s = motion.offset_gain(arrival.apart_s);
-        let offset_gain_s = offset_gain_s.hull(-offset_gain_s);
-        let mut position_m = self.position_m + nearby_m;
-        let mut emitter_m = interval_box(&ping.position_m);
-        let mut sound_speed_m_s = sound.speed_m_s;
-        let mut emission_s = interval(ping.emission_s);
-        let longest_delay_s = Interval::spanning(0.0, sound.hearing_range_m) / sound_speed_m_s;
-        let mut reception_s =
-            (self.true_time_s(arrival.stamp_s) + offset_gain_s).intersection(emission_s + longest_delay_s);
-        let contracted = contract_range(
-            &mut position_m,
-            &mut emitter_m,
-            &mut sound_speed_m_s,
-            &mut reception_s,
-            &mut emission_s,
-        );
-        if contracted == Contracted::Empty {
-            return Err(Contradiction(Culprit::Ping(ping.sender)));
-        }
-        Self {
-            offset_s: self.offset_s.intersection(reception_s - arrival.stamp_s + offset_gain_s),
-            position_m: self.position_m.intersection(&(position_m + nearby_m)),
-        }
-        .unless_empty(Culprit::Ping(ping.sender))
-    }
-
     /// Whether this state is smaller than `before` in some coordinate, by more than rounding.
     pub fn is_tighter_than(&self, before: &Self) -> bool {
-        let shrunk = |now: Interval, then: Interval| now.width() < then.width() * (1.0 - 1e-9);
+        self.is_tighter_by(before, 1e-9)
+    }
+
+    /// Whether this state is smaller than `before` in some coordinate, by more than this part of its width.
+    pub fn is_tighter_by(&self, before: &Self, ratio: f64) -> bool {
+        let shrunk = |now: Interval, then: Interval| now.width() < then.width() * (1.0 - ratio);
         shrunk(self.offset_s, before.offset_s)
             || (0..3).any(|axis| shrunk(self.position_m[axis], before.position_m[axis]))
     }
@@ -177,78 +135,11 @@ impl State {
 
 #[cfg(test)]
 mod tests {
-    use shoal_bus::message::{AuvId, BodyBounds, Bounds, ClockBounds};
-
     use super::*;
-
-    fn motion() -> Motion {
-        let body = BodyBounds {
-            speed_m_s: 2.0,
-            acceleration_m_s2: 1.0,
-            current_m_s: [Bounds::default(); 3],
-            current_change_m_s2: [0.0; 3],
-            current_step_m_s: [0.0; 3],
-            disturbance_m_s: [Bounds::default(); 3],
-        };
-        Motion::new(&body, &ClockBounds { drift: 1e-4, offset_s: Bounds::default(), stamp_ns: 2 })
-    }
-
-    fn side(lower: f64, upper: f64) -> Interval {
-        Interval::new(lower, upper).unwrap()
-    }
-
-    /// A ping that left the origin at true time 10 s.
-    fn ping() -> Ping {
-        let moment = Bounds::new(10.0, 10.0);
-        Ping {
-            sender: AuvId(3),
-            sequence: 0,
-            emission_s: moment,
-            position_m: [Bounds::default(); 3],
-            velocity_m_s: [Bounds::default(); 3],
-        }
-    }
-
-    const SOUND: Sound = Sound { speed_m_s: Interval::ONE, hearing_range_m: f64::INFINITY };
-
-    fn heard(state: &State, sound: &Sound, at_s: f64) -> Result<State, Contradiction> {
-        let arrival = Moment { stamp_s: Interval::point(at_s).unwrap(), apart_s: 0.0 };
-        state.with_ping(&ping(), sound, &arrival, &motion())
-    }
-
-    #[test]
-    fn a_ping_contracts_position_and_clock_at_once() {
-        // Between 30 and 50 m east; the clock is off by up to 10 s; sound goes at 1 m/s; heard at 45 s of the own clock.
-        let state = State {
-            offset_s: side(-10.0, 10.0),
-            position_m: IntervalBox::from([side(30.0, 50.0), Interval::ZERO, Interval::ZERO]),
-        };
-        let known = heard(&state, &SOUND, 45.0).unwrap();
-        // Travel time is 25 to 45 s, and 30 to 50 m at 1 m/s: 30 to 45 of both.
-        assert!(
-            (known.position_m[0].lower() - 30.0).abs() < 1e-6
-                && (known.position_m[0].upper() - 45.0).abs() < 1e-6
-        );
-        assert!((known.offset_s.lower() + 5.0).abs() < 1e-6 && (known.offset_s.upper() - 10.0).abs() < 1e-6);
-        assert!(known.is_tighter_than(&state));
-    }
-
-    #[test]
-    fn what_is_heard_is_near() {
-        let anywhere =
-            State { offset_s: side(-1e3, 1e3), position_m: IntervalBox::from([side(-1e4, 1e4); 3]) };
-        let sound = Sound { hearing_range_m: 5.0, ..SOUND };
-        let known = heard(&anywhere, &sound, 45.0).unwrap();
-        assert!(known.position_m.width() < 10.001 && known.offset_s.width() < 5.001);
-    }
 
     #[test]
     fn a_contradiction_names_its_culprit() {
-        let state = State {
-            offset_s: Interval::ZERO,
-            position_m: IntervalBox::from([side(300.0, 301.0), Interval::ZERO, Interval::ZERO]),
-        };
-        assert_eq!(heard(&state, &SOUND, 45.0).unwrap_err(), Contradiction(Culprit::Ping(AuvId(3))));
+        let state = State { offset_s: Interval::ZERO, position_m: IntervalBox::from([Interval::ZERO; 3]) };
         let deep = Measured { value: 7.0, error: 0.5 };
         assert_eq!(state.with_depth(deep).unwrap_err(), Contradiction(Culprit::Depth));
     }

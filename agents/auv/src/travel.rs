@@ -55,20 +55,25 @@ impl Travel {
         stretch
     }
 
+    /// What is known of the velocity from the last tick until `length_s` local seconds later.
+    pub fn stretch_ahead(&self, length_s: f64) -> Stretch {
+        let current_m_s = self.current.within(self.motion.true_s(length_s));
+        Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s }
+    }
+
     /// What can be at `at`, not before the last tick, when the state was `state` at the last tick. `at_s` is the exact local time of the
     /// moment, in seconds.
     pub fn predict(&self, state: &State, at: LocalTime, at_s: Interval) -> Prediction {
         let length_s = seconds(at - self.now).max(0.0);
-        let current_m_s = self.current.within(self.motion.true_s(length_s));
-        let stretch =
-            Stretch { before_m_s: self.velocity_m_s, after_m_s: IntervalBox::ENTIRE, current_m_s, length_s };
+        let stretch = self.stretch_ahead(length_s);
         let state = state.moved(&self.motion.over(&stretch, 0.0, length_s));
         let through_water_m_s = self.motion.velocity_after(&self.velocity_m_s, length_s);
         Prediction {
             time_s: state.true_time_s(at_s),
             position_m: state.position_m,
-            velocity_m_s: self.motion.over_ground(&through_water_m_s, &current_m_s),
-            current_m_s,
+            velocity_m_s: self.motion.over_ground(&through_water_m_s, &stretch.current_m_s),
+            current_m_s: stretch.current_m_s,
+            gaussian: None,
         }
     }
 
@@ -133,11 +138,18 @@ fn drift_at(stamp: LocalTime, over_ground_m_s: &[Measured; 3], sensed: &Sensed) 
 }
 
 /// `R(heading, pitch) (speed, 0, 0)`, in m/s.
-fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> IntervalBox<3> {
+pub(crate) fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Measured) -> IntervalBox<3> {
     let (sin_heading, cos_heading) = measured(heading_rad).sin_cos();
     let (sin_pitch, cos_pitch) = measured(pitch_rad).sin_cos();
     let speed = measured(speed_m_s);
     IntervalBox::from([speed * cos_pitch * cos_heading, speed * cos_pitch * sin_heading, speed * sin_pitch])
+}
+
+/// Exact local time of something stamped `stamp`, in seconds, when a stamp is off by at most `stamp_s` seconds.
+pub(crate) fn local_s(stamp: LocalTime, stamp_s: f64) -> Interval {
+    // Seconds as a double are off by at most half an ulp; one whole ulp is added.
+    let seconds = stamp.as_s();
+    Interval::centred(seconds, stamp_s + seconds.abs() * f64::EPSILON)
 }
 
 /// Seconds of a difference of stamps; exact below 104 days, where nanoseconds are whole doubles, but for the last bit.

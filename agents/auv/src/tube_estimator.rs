@@ -4,7 +4,7 @@
 //! fixes, depths and pings contract it where they are measured (seed 001, section 5.3). Every measurement happens at a known local
 //! time, so no clock is ever inverted. What is told late contracts the state that was, and odometry carries it on.
 
-use shoal_bus::message::{Born, Culprit, Emptied, Estimator as Orders, Event, Sense, Sensed};
+use shoal_bus::message::{Born, Culprit, Emptied, Estimator as Orders, Event, Sense, Sensed, TubeSettings};
 use shoal_bus::ping::Ping;
 use shoal_bus::time::LocalTime;
 use shoal_interval::Interval;
@@ -12,9 +12,12 @@ use shoal_interval::Interval;
 use crate::bounds::{interval, interval_box};
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::history::History;
+use crate::motion::Stretch;
 use crate::odometry::{Leg, Odometry, Way};
-use crate::state::{Contradiction, Moment, Sound, State};
-use crate::travel::{Travel, seconds};
+use crate::rings::{Ring, Rings};
+use crate::state::{Contradiction, Sound, State};
+use crate::together;
+use crate::travel::{Travel, local_s, seconds};
 
 /// Encloses the state by a tube.
 pub struct TubeEstimator {
@@ -24,15 +27,24 @@ pub struct TubeEstimator {
     stamp_s: f64,
     history: History,
     odometry: Odometry,
+    rings: Rings,
+    stopping_ratio: f64,
+}
+
+/// What one event leaves of a state, and the ring of a ping.
+struct Informed {
+    state: State,
+    ring: Option<Ring>,
 }
 
 impl TubeEstimator {
     /// The tube that begins with what the AUV was told at birth.
     pub fn new(born: &Born) -> Self {
-        let horizon_ns = match born.orders.estimator {
-            Orders::Tube(settings) => settings.horizon_ns,
-            Orders::Ekf(_) | Orders::DeadReckoning => 0,
+        let settings = match born.orders.estimator {
+            Orders::Tube(settings) => settings,
+            Orders::Ekf(_) | Orders::DeadReckoning => TubeSettings::forward(0),
         };
+        let horizon_ns = settings.horizon_ns;
         let state = State {
             offset_s: interval(born.clock.offset_s),
             position_m: interval_box(&born.prior_position_m),
@@ -47,54 +59,98 @@ impl TubeEstimator {
             stamp_s: born.clock.stamp_ns as f64 * 1e-9,
             history: History::new(born.birth, &state, horizon_ns),
             odometry: Odometry::new(horizon_ns),
+            rings: Rings::new(settings.rings.into(), seconds(horizon_ns)),
+            stopping_ratio: settings.stopping_ratio,
         }
+    }
+
+    /// The leg that ended at the last tick, once there was one.
+    pub(crate) fn last_leg(&self) -> Option<&Leg> {
+        self.odometry.last()
+    }
+
+    /// What is known of the velocity from the last tick until `length_s` local seconds later.
+    pub(crate) fn stretch_ahead(&self, length_s: f64) -> Stretch {
+        self.travel.stretch_ahead(length_s)
+    }
+
+    /// Bytes of heap that are in use for what is remembered; the horizon and the number of rings bound them.
+    pub fn memory_bytes(&self) -> usize {
+        self.history.memory_bytes() + self.odometry.memory_bytes() + self.rings.memory_bytes()
     }
 
     /// Exact local time of something stamped `stamp`, in seconds.
     fn local_s(&self, stamp: LocalTime) -> Interval {
-        // Seconds as a double are off by at most half an ulp; one whole ulp is added.
-        let seconds = stamp.as_s();
-        Interval::centred(seconds, self.stamp_s + seconds.abs() * f64::EPSILON)
+        local_s(stamp, self.stamp_s)
     }
 
     /// The state after one event that is stamped `lag_s` local seconds before it; `way` leads there from the last tick.
     ///
     /// What belongs to the time before the last tick, as the beginning of a long packet does, contracts the state that was.
     /// What is older than the horizon is ignored.
-    fn informed(&self, state: &State, way: &Way, event: &Event, lag_s: f64) -> Result<State, Contradiction> {
+    fn informed(
+        &self,
+        state: &State,
+        way: &Way,
+        event: &Event,
+        lag_s: f64,
+    ) -> Result<Informed, Contradiction> {
         // A stamp may precede the tick by its own error, which is nothing to go back for.
         if lag_s <= self.timestamp_s {
             return self.contracted(state, event, lag_s);
         }
         let Some((then, since)) = self.odometry.recall(event.stamp, self.travel.motion()) else {
-            return Ok(*state);
+            return Ok(Informed { state: *state, ring: None });
         };
         let since = since.then(way);
-        let then = self.contracted(&then.intersection(&since.back(state)), event, 0.0)?;
-        let known = state.intersection(&since.ahead(&then));
+        let mut informed = self.contracted(&then.intersection(&since.back(state)), event, 0.0)?;
+        let known = state.intersection(&since.ahead(&informed.state));
+        if let Some(ring) = &mut informed.ring {
+            ring.carry(&since);
+        }
         // Everything in `then` leads into `state`, so nothing is left only where they touch, for want of digits.
-        Ok(if known.is_empty() { *state } else { known })
+        Ok(Informed { state: if known.is_empty() { *state } else { known }, ..informed })
     }
 
     /// The state contracted by one event that is stamped `lag_s` local seconds before it.
-    fn contracted(&self, state: &State, event: &Event, lag_s: f64) -> Result<State, Contradiction> {
+    fn contracted(&self, state: &State, event: &Event, lag_s: f64) -> Result<Informed, Contradiction> {
         let stamp_s = self.local_s(event.stamp);
-        match &event.sense {
-            Sense::Inertial { .. } | Sense::Dvl { .. } | Sense::Held => Ok(*state),
-            Sense::Depth { depth_m } => state.with_depth(*depth_m),
+        let state = match &event.sense {
+            Sense::Inertial { .. } | Sense::Dvl { .. } | Sense::Bearing { .. } | Sense::Held => *state,
+            Sense::Depth { depth_m } => state.with_depth(*depth_m)?,
             Sense::Gnss { position_m, time_s } => {
-                state.with_fix(&interval_box(position_m), interval(*time_s), stamp_s)
+                state.with_fix(&interval_box(position_m), interval(*time_s), stamp_s)?
             }
-            Sense::Heard { frame } => {
-                // Bytes that are no ping say nothing.
-                let Ok(ping) = Ping::decode(frame) else { return Ok(*state) };
-                let arrival = Moment {
-                    stamp_s: stamp_s.inflate(self.timestamp_s),
-                    apart_s: lag_s + self.timestamp_s + 2.0 * self.stamp_s,
-                };
-                state.with_ping(&ping, &self.sound, &arrival, self.travel.motion())
-            }
+            // Bytes that are no ping say nothing.
+            Sense::Heard { frame } => match Ping::decode(frame) {
+                Ok(ping) => return self.told_by(state, &ping, stamp_s, lag_s),
+                Err(_) => *state,
+            },
+        };
+        Ok(Informed { state, ring: None })
+    }
+
+    /// The state contracted by a ping that is stamped `lag_s` local seconds before it, and the ring that it leaves.
+    fn told_by(
+        &self,
+        state: &State,
+        ping: &Ping,
+        stamp_s: Interval,
+        lag_s: f64,
+    ) -> Result<Informed, Contradiction> {
+        let apart_s = lag_s + self.timestamp_s + 2.0 * self.stamp_s;
+        let arrival_s = stamp_s.inflate(self.timestamp_s);
+        let ring = Ring::new(ping, arrival_s, Way::within(self.travel.motion(), apart_s));
+        Ok(Informed { state: ring.contract(state, &self.sound)?, ring: Some(ring) })
+    }
+
+    /// The state contracted by all rings together, of which the last `fresh` are new. Contradictory, those are dropped.
+    fn contracted_together(&mut self, state: &State, fresh: usize) -> Result<State, Contradiction> {
+        let contracted = together::contract(self.rings.as_slice(), state, &self.sound, self.stopping_ratio);
+        if contracted.is_err() {
+            self.rings.drop_newest(fresh);
         }
+        contracted
     }
 }
 
@@ -109,6 +165,7 @@ impl Estimator for TubeEstimator {
         let mut since = begun;
         let mut slice: Option<State> = None;
         let mut way = Way::none();
+        let mut fresh = 0;
 
         let mut events = sensed.events.iter().peekable();
         loop {
@@ -118,13 +175,18 @@ impl Estimator for TubeEstimator {
             let before = state;
             state = state.moved(&moved);
             way = way.then(&Way::from(&moved));
+            self.rings.carry(&Way::from(&moved));
             let mut told = false;
             while let Some(event) = events.next_if(|event| event.stamp <= next) {
                 told = true;
                 match self.informed(&state, &way, event, seconds(next - event.stamp)) {
-                    Ok(contracted) => {
-                        contractions += u16::from(contracted.is_tighter_than(&state));
-                        state = contracted;
+                    Ok(informed) => {
+                        contractions += u16::from(informed.state.is_tighter_than(&state));
+                        state = informed.state;
+                        if let Some(ring) = informed.ring {
+                            self.rings.push(ring);
+                            fresh += 1;
+                        }
                     }
                     Err(Contradiction(by)) => {
                         rejected += u16::from(matches!(by, Culprit::Ping(_)));
@@ -132,15 +194,26 @@ impl Estimator for TubeEstimator {
                     }
                 }
             }
+            let ends = next == sensed.stamp && (!told || events.peek().is_none());
+            if ends && fresh > 0 {
+                match self.contracted_together(&state, fresh) {
+                    Ok(contracted) => state = contracted,
+                    Err(Contradiction(by)) => {
+                        rejected += fresh as u16;
+                        emptied.get_or_insert(Emptied { stamp: sensed.stamp, by });
+                    }
+                }
+            }
             let swept = before.swept(&moved, &state);
             slice = Some(slice.map_or(swept, |slice| slice.hull(&swept)));
             since = next;
-            if next == sensed.stamp && (!told || events.peek().is_none()) {
+            if ends {
                 break;
             }
         }
 
         let slice = slice.unwrap_or(state);
+        self.rings.forget(sensed.stamp.as_s());
         self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.history.last(), stretch, way });
         self.history.append(sensed.stamp, &slice, &state);
         Estimate { state, slice, emptied, contractions, rejected, components: 1, gaussian: None }
@@ -152,4 +225,4 @@ impl Estimator for TubeEstimator {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -12,6 +12,7 @@ use shoal_bus::message::{
 use shoal_bus::time::SimTime;
 use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
 
+use crate::bearing::BearingArray;
 use crate::body::{Attitude, Body, Vec3};
 use crate::clock::{STAMP_NS, TrueClock};
 use crate::draw::{Draws, Purpose};
@@ -28,6 +29,8 @@ pub struct Newborn {
     pub sensors: Sensors,
     /// Errors of its modem's timestamps.
     pub arrivals: Draws,
+    /// Its array that measures where pings come from, if it has one.
+    pub bearings: Option<BearingArray>,
     /// What it is told.
     pub born: Born,
 }
@@ -80,6 +83,9 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         body,
         sensors: Sensors::new(&group.sensors, scenario.bottom_depth_m(), (seed, auv, noise), first_fix),
         arrivals: Draws::new(seed, Purpose::Arrival, auv, noise),
+        bearings: group.modem.bearing_error_rad.map(|error_rad| {
+            BearingArray::new(error_rad, group.sensors.heading_error_rad, (seed, auv, noise))
+        }),
         born,
     }
 }
@@ -160,6 +166,7 @@ fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) 
             AuvSabotage::LyingPing => Sabotage::LyingPing,
             AuvSabotage::EmptySet => Sabotage::EmptySet,
         }),
+        relative: group.relative.map(|of| bounds::relative(scenario, &of)),
     }
 }
 

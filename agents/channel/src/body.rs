@@ -70,8 +70,8 @@ pub struct Segment {
     pub acceleration_m_s2: Vec3,
     water_velocity_m_s: Vec3,
     attitude: Attitude,
-    /// Attitude and velocity through the water at the next knot, unless a setpoint takes effect before.
-    planned: (SimTime, Attitude, Vec3),
+    /// The next knot, unless a setpoint takes effect before.
+    planned_end: SimTime,
 }
 
 impl Segment {
@@ -82,7 +82,7 @@ impl Segment {
 
     /// Seconds from the start to the next knot, whether or not a setpoint ends the stretch before.
     pub fn planned_length_s(&self) -> f64 {
-        self.elapsed_s(self.planned.0)
+        self.elapsed_s(self.planned_end)
     }
 
     fn elapsed_s(&self, t: SimTime) -> f64 {
@@ -123,6 +123,10 @@ pub struct Body {
     setpoints: VecDeque<(SimTime, Vec3)>,
     /// What is remembered, the last one reaching beyond what is integrated so far.
     segments: VecDeque<Segment>,
+    /// Number of the knot at or before the start of the first of them.
+    first_knot: i64,
+    /// Attitude and velocity through the water at the end that is planned for the last one.
+    planned: (Attitude, Vec3),
     shift: Option<SimTime>,
     /// When it will be carried elsewhere, and where to in metres, in order of time.
     leaps: VecDeque<(SimTime, Vec3)>,
@@ -151,6 +155,8 @@ impl Body {
             goal: attitude,
             setpoints: VecDeque::new(),
             segments: VecDeque::new(),
+            first_knot: 0,
+            planned: (attitude, Vec3::zeros()),
             shift: None,
             leaps: VecDeque::new(),
             leapt: None,
@@ -188,6 +194,11 @@ impl Body {
         self.leapt.filter(|&(at, _)| at >= since).map_or(0.0, |(_, leap_m)| leap_m)
     }
 
+    /// Whether kidnappers carried it from `since` to `at`, as far as it is integrated; only the last time counts.
+    pub fn leapt_between(&self, since: SimTime, at: SimTime) -> bool {
+        self.leapt.is_some_and(|(leap, _)| since <= leap && leap <= at)
+    }
+
     /// Takes a desired velocity through the water that takes effect at `at`, which lies in no window already integrated.
     pub fn steer(&mut self, at: SimTime, velocity_m_s: Vec3) {
         let place = self.setpoints.partition_point(|&(earlier, _)| earlier <= at);
@@ -215,8 +226,8 @@ impl Body {
                 self.leapt = Some((last.end, (to_m - position_m).norm()));
                 position_m = to_m;
             }
-            let (planned_end, attitude, velocity_m_s) = last.planned;
-            if last.end == planned_end {
+            if last.end == last.planned_end {
+                let (attitude, velocity_m_s) = self.planned;
                 self.begin(last.end, position_m, attitude, velocity_m_s);
             } else {
                 let pose = pose_at(&last, last.end);
@@ -227,8 +238,13 @@ impl Body {
 
     /// Forgets motion that ended before `t`; it will not be asked again.
     pub fn forget_before(&mut self, t: SimTime) {
-        while self.segments.len() > 1 && self.segments[0].end < t {
-            self.segments.pop_front();
+        let mut forgotten = 0;
+        while forgotten + 1 < self.segments.len() && self.segments[forgotten].end < t {
+            forgotten += 1;
+        }
+        if forgotten > 0 {
+            self.segments.drain(..forgotten);
+            self.first_knot = self.segments[0].start.ns().div_euclid(self.knot_ns);
         }
     }
 
@@ -249,14 +265,24 @@ impl Body {
         segment.ground_velocity_m_s + segment.acceleration_m_s2 * segment.elapsed_s(t)
     }
 
-    /// The stretches that are remembered, in order.
-    pub fn segments(&self) -> impl Iterator<Item = &Segment> {
-        self.segments.iter()
+    /// The stretch that holds `t` and all later ones, in order.
+    pub fn segments_from(&self, t: SimTime) -> impl Iterator<Item = &Segment> {
+        self.segments.range(self.index_at(t)..)
     }
 
     fn segment_at(&self, t: SimTime) -> &Segment {
-        let after = self.segments.partition_point(|segment| segment.start <= t);
-        &self.segments[after.saturating_sub(1)]
+        &self.segments[self.index_at(t)]
+    }
+
+    /// Found from the number of knots since the first stretch: every knot begins one, and setpoints begin few more.
+    fn index_at(&self, t: SimTime) -> usize {
+        let last = self.segments.len() - 1;
+        let knots = t.ns().div_euclid(self.knot_ns) - self.first_knot;
+        let mut index = last.min(knots.max(0) as usize);
+        while index < last && self.segments[index].end <= t {
+            index += 1;
+        }
+        index
     }
 
     /// Starts a stretch at `start`, up to the next knot or setpoint.
@@ -287,8 +313,9 @@ impl Body {
             acceleration_m_s2,
             water_velocity_m_s,
             attitude,
-            planned: (planned_end, next, next_velocity_m_s),
+            planned_end,
         });
+        self.planned = (next, next_velocity_m_s);
     }
 
     /// The attitude that a desired velocity asks for, within what the kind can hold.

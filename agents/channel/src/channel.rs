@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Entry, Truth, Violation, What};
 use shoal_bus::codec::CodecError;
 use shoal_bus::lockstep::{Answers, Batch, Loss};
-use shoal_bus::message::{Acted, AuvId, Born, Sensed, box_width};
-use shoal_bus::ping::{Frame, Ping};
+use shoal_bus::message::{Acted, Around, AuvId, Born, Estimator, Event, Sensed, box_width};
+use shoal_bus::ping::{Frame, Payload};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
@@ -24,7 +24,7 @@ use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
 use crate::tally::{Excuse, Tally};
-use crate::vehicle::{Planned, Vehicle};
+use crate::vehicle::{Planned, Tick, Vehicle};
 use crate::water::Water;
 
 /// Why a run cannot go on.
@@ -73,6 +73,7 @@ pub struct Channel {
     vehicles: Vec<Vehicle>,
     medium: Medium,
     grid: Grid,
+    /// Where all vehicles were when the window began.
     places_m: Vec<Vec3>,
     told: Vec<Told>,
     fastest_m_s: f64,
@@ -80,6 +81,8 @@ pub struct Channel {
     accepted: SimTime,
     happened: Vec<Entry>,
     chronicled: Vec<Entry>,
+    /// Memory of events that were chronicled, to be written anew.
+    spare: Vec<Vec<Event>>,
     flock: Flock,
     tally: Tally,
     digest: Digest,
@@ -125,6 +128,7 @@ impl Channel {
             accepted: SimTime::ZERO,
             happened: Vec::new(),
             chronicled: Vec::new(),
+            spare: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
         })
@@ -168,9 +172,11 @@ impl Channel {
         if window_ns > lookahead_ns {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
+        self.places_m.clear();
         for vehicle in &mut self.vehicles {
             vehicle.forget_before(self.now);
             vehicle.body.integrate(to);
+            self.places_m.push(vehicle.body.position_at(self.now));
         }
         self.emit(to);
         self.arrive(to);
@@ -195,15 +201,20 @@ impl Channel {
             self.lose(loss);
         }
         self.accepted = self.now;
-        self.happened = std::mem::take(&mut self.tally.window);
+        // Buffers go round: fresh ones would cost more than what is written into them.
+        self.happened.clear();
+        std::mem::swap(&mut self.happened, &mut self.tally.window);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, apart from
     /// [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
-        self.chronicled.clear();
-        self.chronicled.append(&mut self.happened);
-        self.chronicled.sort_by_key(canonical_order);
+        self.spare.extend(self.chronicled.drain(..).filter_map(|entry| match entry.what {
+            What::Sensed(sensed) => Some(sensed.events),
+            _ => None,
+        }));
+        std::mem::swap(&mut self.chronicled, &mut self.happened);
+        self.chronicled.sort_by_cached_key(canonical_order);
         self.digest.update(&self.chronicled)?;
         Ok(&self.chronicled)
     }
@@ -241,11 +252,15 @@ impl Channel {
         if leaving.is_empty() {
             return;
         }
-        leaving.sort_by_key(|&(at, auv, _)| (at, auv));
-        let start = self.now;
-        self.places_m.clear();
-        self.places_m.extend(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(start)));
         self.grid.sort(&self.places_m, self.medium.farthest_m());
+        if leaving.iter().any(|(_, _, planned)| planned.listen_ns > 0) {
+            // What a modem hears decides whether it emits, so what came before has to be known.
+            leaving.sort_by_key(|&(at, auv, _)| (at, auv));
+        } else {
+            // Otherwise only an emitter's own order counts, and neighbours in space share neighbours in memory.
+            leaving.sort_by_key(|&(at, auv, _)| (self.grid.cell_of(auv.0 as usize), auv, at));
+        }
+        let start = self.now;
         let leapt_m = self.vehicles.iter().map(|vehicle| vehicle.body.leapt_since(start)).fold(0.0, f64::max);
         for (at, from, planned) in leaving {
             self.emit_one(at, from, planned, leapt_m);
@@ -268,8 +283,8 @@ impl Channel {
         emitter.emits_until = at + packet_ns;
         let pose = emitter.body.at(at);
         let excuse = excuse(emitter, at, planned.booked);
-        let (violation, box_width_m) =
-            check_ping(from, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
+        let Checked { is_promise, violation, box_width_m } =
+            check_ping(&emitter.born, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
         let wavefront = Arc::new(Wavefront {
             from,
             sequence,
@@ -292,7 +307,9 @@ impl Channel {
             packet_s: packet_ns as f64 * 1e-9,
         };
         self.tally.traffic(from, Traffic { at, from, sequence, fate });
-        self.tally.check(from, at, violation, excuse);
+        if is_promise {
+            self.tally.check(from, at, violation, excuse);
+        }
     }
 
     /// Why a modem does not emit what is booked for now, if it does not.
@@ -314,8 +331,9 @@ impl Channel {
     fn arrive(&mut self, to: SimTime) {
         let mut told = std::mem::take(&mut self.told);
         self.medium.arrive(to, &mut self.vehicles, &mut told);
-        told.sort_by_key(|told| (told.at, told.to, told.wavefront.from, told.wavefront.sequence));
-        for Told { at, to, wavefront, mut fate, stamp } in told.drain(..) {
+        // Receivers share nothing, so that each takes all that is its own at once.
+        told.sort_by_cached_key(|told| (told.to, told.at, told.wavefront.from, told.wavefront.sequence));
+        for Told { at, to, wavefront, mut fate, stamp, incidence } in told.drain(..) {
             let receiver = &mut self.vehicles[to.0 as usize];
             let (from, sequence) = (wavefront.from, wavefront.sequence);
             match fate {
@@ -329,7 +347,7 @@ impl Channel {
                     if outlier || wavefront.is_false {
                         receiver.expose(at);
                     }
-                    receiver.hear(at, stamp, from.0, &wavefront.frame);
+                    receiver.hear(at, stamp, from, &wavefront.frame, incidence.as_ref());
                 }
                 _ => {}
             }
@@ -355,7 +373,9 @@ impl Channel {
                     pitch_rad: tick.pose.attitude.pitch_rad,
                 };
                 self.tally.happened(tick.at, auv, What::Truth(truth));
-                self.tally.happened(tick.at, auv, What::Sensed(sensed.clone()));
+                let mut events = self.spare.pop().unwrap_or_default();
+                events.clone_from(&sensed.events);
+                self.tally.happened(tick.at, auv, What::Sensed(Sensed { events, ..sensed }));
                 items.push(sensed);
             }
             if !items.is_empty() {
@@ -389,26 +409,27 @@ impl Channel {
         let velocity_m_s = Vector3::from(acted.setpoint.velocity_m_s);
         vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
         let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
-        let between_offset_s = vehicle.clock.offset_s(tick.between);
         let report = &acted.report;
-        let at_tick = Check::of(Enclosure::Report)
-            .position(&report.position_m, &tick.pose.position_m)
-            .time(&report.clock_offset_s, offset_s)
-            .violation();
-        let between_ticks = Check::of(Enclosure::Slice)
-            .position(&report.slice.position_m, &tick.between_position_m)
-            .time(&report.slice.clock_offset_s, between_offset_s)
-            .violation();
-        let excuse = excuse(vehicle, tick.at, tick.at);
-        self.tally.check(auv, tick.at, at_tick, excuse);
-        self.tally.check(auv, tick.at, between_ticks, excuse);
-        if report.emptied.is_some() {
-            self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), excuse);
-            if let Some(after_ns) = vehicle.notices(tick.at) {
-                self.tally.noticed(after_ns);
+        let (promises, excuse) = (promises(&vehicle.born), excuse(vehicle, tick.at, tick.at));
+        if promises {
+            let at_tick = Check::of(Enclosure::Report)
+                .position(&report.position_m, &tick.pose.position_m)
+                .time(&report.clock_offset_s, offset_s)
+                .violation();
+            let between_ticks = Check::of(Enclosure::Slice)
+                .position(&report.slice.position_m, &tick.between_position_m)
+                .time(&report.slice.clock_offset_s, tick.between_offset_s)
+                .violation();
+            self.tally.check(auv, tick.at, at_tick, excuse);
+            self.tally.check(auv, tick.at, between_ticks, excuse);
+            if report.emptied.is_some() {
+                self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), excuse);
+                if let Some(after_ns) = vehicle.notices(tick.at) {
+                    self.tally.noticed(after_ns);
+                }
             }
         }
-        self.tally.reported(auv, box_width(&report.position_m), report.clock_offset_s.width());
+        self.tally.reported(auv, report, &tick.pose.position_m, offset_s);
         for (index, ping) in acted.pings.iter().enumerate() {
             if ping.at < takes_effect {
                 // It never left, so it has no number but its place in the answer.
@@ -418,6 +439,11 @@ impl Channel {
             } else {
                 vehicle.plan(ping.clone(), tick.at);
             }
+        }
+        for around in report.around.iter().filter(|_| promises) {
+            let violation = check_around(around, &tick, &self.vehicles);
+            let excuse = excuse_around(auv, around, tick.at, &self.vehicles).or(excuse);
+            self.tally.check(auv, tick.at, violation, excuse);
         }
         self.tally.happened(tick.at, auv, What::Acted(acted));
         Ok(())
@@ -440,25 +466,53 @@ fn excuse(vehicle: &Vehicle, at: SimTime, known: SimTime) -> Option<Excuse> {
     vehicle.is_exposed_at(at).then_some(Excuse::Misled)
 }
 
-/// Checks a payload at its emission; also gives the width of its position box in metres.
-fn check_ping(
-    from: AuvId,
-    at: SimTime,
-    frame: &Frame,
-    position_m: &Vec3,
-    velocity_m_s: &Vec3,
-) -> (Option<Violation>, f64) {
-    match Ping::decode(frame) {
-        Ok(ping) if ping.sender == from => {
+/// Whether the AUV promises that what it states holds the truth: all but Kalman filters do.
+fn promises(born: &Born) -> bool {
+    !matches!(born.orders.estimator, Estimator::Ekf(_))
+}
+
+/// What a payload is worth.
+struct Checked {
+    is_promise: bool,
+    violation: Option<Violation>,
+    box_width_m: f64,
+}
+
+/// Checks a payload at its emission. The Gaussian of an AUV that promises nothing is not false, whatever it says: only estimators
+/// that promise nothing either take it in.
+fn check_ping(emitter: &Born, at: SimTime, frame: &Frame, position_m: &Vec3, velocity_m_s: &Vec3) -> Checked {
+    let (is_promise, violation, box_width_m) = match Payload::decode(frame) {
+        Ok(Payload::Intervals(ping)) if ping.sender == emitter.auv => {
             let violation = Check::of(Enclosure::Ping)
                 .position(&ping.position_m, position_m)
                 .velocity(&ping.velocity_m_s, velocity_m_s)
                 .time(&ping.emission_s, at.as_s())
                 .violation();
-            (violation, box_width(&ping.position_m))
+            (true, violation, box_width(&ping.position_m))
         }
-        _ => (Some(check::nothing(Enclosure::Ping)), 0.0),
-    }
+        Ok(Payload::Gaussian(ping)) if ping.sender == emitter.auv && !promises(emitter) => {
+            (false, None, box_width(&ping.position_box_m()))
+        }
+        _ => (true, Some(check::nothing(Enclosure::Ping)), 0.0),
+    };
+    Checked { is_promise, violation, box_width_m }
+}
+
+/// Why no promise covers where an AUV sees a neighbour at `at`, besides what excuses all that it states: its past sightings do not know
+/// that one of both was carried elsewhere.
+fn excuse_around(auv: AuvId, around: &Around, at: SimTime, vehicles: &[Vehicle]) -> Option<Excuse> {
+    let both = [auv, around.auv].into_iter().filter_map(|auv| vehicles.get(auv.0 as usize));
+    let mut kidnapped = both.filter(|vehicle| vehicle.was_kidnapped_between(SimTime::ZERO, at));
+    kidnapped.next().map(|_| Excuse::Kidnapped)
+}
+
+/// Checks where an AUV sees a neighbour at its tick, which lies in the window just advanced.
+fn check_around(around: &Around, tick: &Tick, vehicles: &[Vehicle]) -> Option<Violation> {
+    let Some(neighbour) = vehicles.get(around.auv.0 as usize) else {
+        return Some(check::nothing(Enclosure::Around));
+    };
+    let apart_m = neighbour.body.position_at(tick.at) - tick.pose.position_m;
+    Check::of(Enclosure::Around).horizontal(&around.position_m, &apart_m).violation()
 }
 
 /// (true time, vehicle, kind, index): entries of one vehicle, kind and moment keep the order in which they were told, but

@@ -25,6 +25,11 @@ impl Check {
         self.all(&POSITION, stated, truth_m)
     }
 
+    /// The horizontal part of a displacement, in metres.
+    pub fn horizontal(self, stated: &[Bounds; 2], truth_m: &Vec3) -> Self {
+        (0..2).fold(self, |check, axis| check.one(POSITION[axis], &stated[axis], truth_m[axis]))
+    }
+
     /// Velocities over ground in m/s.
     pub fn velocity(self, stated: &BoundsBox, truth_m_s: &Vec3) -> Self {
         self.all(&VELOCITY, stated, truth_m_s)

@@ -30,6 +30,8 @@ pub enum Purpose {
     Reception = 10,
     /// Velocity over ground.
     Dvl = 11,
+    /// Directions from which pings arrive.
+    Bearing = 12,
 }
 
 /// One stream of draws.

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason};
 
+use crate::bearing::Incidence;
 use crate::grid::Grid;
 use crate::sound::{Flight, Told, Wavefront, reach_m};
 use crate::vehicle::Vehicle;
@@ -13,7 +15,9 @@ use crate::vehicle::Vehicle;
 pub struct Ideal {
     sound_speed_m_s: f64,
     farthest_m: f64,
+    fastest_m_s: f64,
     flights: Vec<Flight>,
+    due: Vec<Flight>,
 }
 
 impl Ideal {
@@ -22,7 +26,9 @@ impl Ideal {
         Self {
             sound_speed_m_s,
             farthest_m: reach_m(farthest_m, fastest_m_s, sound_speed_m_s),
+            fastest_m_s,
             flights: Vec::new(),
+            due: Vec::new(),
         }
     }
 
@@ -42,28 +48,35 @@ impl Ideal {
         moved_m: f64,
     ) -> u32 {
         let sound_speed_m_s = self.sound_speed_m_s;
-        let mut within = 0;
-        for index in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
-            let receiver = &vehicles[index];
-            if receiver.born.auv == wavefront.from {
+        let before = self.flights.len();
+        for (index, place_m) in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
+            let to = AuvId(index as u32);
+            if to == wavefront.from {
                 continue;
             }
+            // Where it was is enough for most, and spares a look at the receiver.
+            let farthest_m = (place_m - wavefront.origin_m).norm() + moved_m;
+            if farthest_m < wavefront.range_m {
+                let nearest_m = (farthest_m - 2.0 * moved_m).max(0.0);
+                self.flights.push(wavefront.flight(to, nearest_m, self.fastest_m_s, sound_speed_m_s));
+                continue;
+            }
+            let receiver = &vehicles[index];
             let distance_m = (receiver.body.position_at(wavefront.emitted) - wavefront.origin_m).norm();
             let speed_m_s = receiver.ground_speed_m_s;
-            let flight = wavefront.towards(receiver.born.auv, distance_m, speed_m_s, sound_speed_m_s);
-            within += u32::from(flight.is_some());
-            self.flights.extend(flight);
+            self.flights.extend(wavefront.towards(to, distance_m, speed_m_s, sound_speed_m_s));
         }
+        let within = (self.flights.len() - before) as u32;
         vehicles.len() as u32 - 1 - within
     }
 
     /// All wavefronts that reach their receivers before `to`, in no particular order.
     pub fn arrive(&mut self, to: SimTime, vehicles: &mut [Vehicle], told: &mut Vec<Told>) {
         let sound_speed_m_s = self.sound_speed_m_s;
-        self.flights.retain(|flight| {
-            if flight.earliest >= to {
-                return true;
-            }
+        self.due.extend(self.flights.extract_if(.., |flight| flight.earliest < to));
+        // One receiver after the other, as they lie in memory.
+        self.due.sort_by_key(|flight| flight.to);
+        let flying = self.due.extract_if(.., |flight| {
             let receiver = &vehicles[flight.to.0 as usize];
             let Some(arrival) = flight.arrival(&receiver.body, sound_speed_m_s, to) else { return true };
             let (to, range_m, wavefront) = (flight.to, arrival.range_m, Arc::clone(&flight.wavefront));
@@ -79,9 +92,16 @@ impl Ideal {
                     outlier: false,
                 }
             };
-            told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None });
+            let incidence = receiver.has_bearings().then(|| {
+                let pose = receiver.body.at(arrival.at);
+                let towards = wavefront.origin_m - pose.position_m;
+                Incidence { towards, heading_rad: pose.attitude.heading_rad }
+            });
+            told.push(Told { at: arrival.at, to, wavefront, fate, stamp: None, incidence });
             false
         });
+        self.flights.extend(flying);
+        self.due.clear();
     }
 
     /// Wavefronts on their way.

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `acoustics/` | the physics of sound |
 //! | `channel.rs` | windows, wakes, answers |
+//! | `bearing.rs` | directions from which pings arrive |
 //! | `birth.rs` | from scenario to newborn AUVs |
 //! | `vehicle.rs` | one AUV as the water knows it |
 //! | `water.rs` | what the water really is |
@@ -28,10 +29,13 @@
 //! | `flock.rs` | separation, alignment, connectivity |
 //! | `draw.rs` | reproducible randomness |
 //! | `digest.rs` | one hash of everything |
+//! | `accuracy.rs` | how good estimates are |
 //! | `tally.rs` | what it all amounts to |
 
+mod accuracy;
 pub mod acoustics;
 mod assumption;
+pub mod bearing;
 pub mod birth;
 pub mod body;
 pub mod budget;

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Boundary, Fate, LossReason, SoundPath};
+use shoal_scenario::LISTEN_MAX_NS;
 use shoal_scenario::model::{MediumAccess, PhysicalLayer, Scenario, Sea as SeaModel};
 
 use crate::acoustics::density::sea_water_density_kg_m3;
@@ -19,7 +20,7 @@ use crate::draw::{Draws, Purpose};
 use crate::grid::Grid;
 use crate::reception::{Ear, EarSettings};
 use crate::sound::{Told, Wavefront};
-use crate::vehicle::{LISTEN_MAX_NS, Vehicle};
+use crate::vehicle::Vehicle;
 
 use self::listener::Listener;
 
@@ -105,7 +106,7 @@ fn paths(bounces_max: u8) -> Vec<SoundPath> {
 /// A packet that, as is clear when it leaves, will never be decoded there.
 fn lost(wavefront: &Arc<Wavefront>, to: AuvId, reason: LossReason, range_m: f64) -> Told {
     let fate = Fate::lost(Some(to), reason, range_m);
-    Told { at: wavefront.emitted, to, wavefront: Arc::clone(wavefront), fate, stamp: None }
+    Told { at: wavefront.emitted, to, wavefront: Arc::clone(wavefront), fate, stamp: None, incidence: None }
 }
 
 /// The link between two groups; none when either's modem has no physical layer.
@@ -189,7 +190,7 @@ impl Sea {
             ear.emit(wavefront.emitted, wavefront.emitted + wavefront.packet_ns);
         }
         let mut within = 0;
-        for index in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
+        for (index, _) in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
             let receiver = &vehicles[index];
             if receiver.born.auv == wavefront.from {
                 continue;

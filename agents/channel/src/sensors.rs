@@ -110,7 +110,7 @@ fn body_axes(attitude: &Attitude) -> [Vec3; 3] {
 }
 
 /// The truth with a drawn error, and the bound that is stated for it.
-fn measured(draws: &mut Draws, truth: f64, bound: f64) -> Measured {
+pub(crate) fn measured(draws: &mut Draws, truth: f64, bound: f64) -> Measured {
     let value = truth + draws.error(bound);
     let error = bound + rounding(truth.abs() + bound);
     assert!(

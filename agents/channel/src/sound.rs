@@ -11,6 +11,7 @@ use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_bus::traffic::Fate;
 
+use crate::bearing::Incidence;
 use crate::body::{Body, Segment, Vec3};
 
 /// Bound of the error of an arrival's true time, in seconds: the solver's tolerance and the whole nanosecond it is rounded to.
@@ -54,6 +55,8 @@ pub struct Told {
     pub fate: Fate,
     /// What the receiver's clock read when the packet began, if that was not at `at`.
     pub stamp: Option<LocalTime>,
+    /// How it came in, if it was heard and if that matters to the receiver.
+    pub incidence: Option<Incidence>,
 }
 
 /// A wavefront on its way to one receiver.
@@ -91,9 +94,20 @@ impl Wavefront {
         if distance_m > reach_m(self.range_m, speed_m_s, sound_speed_m_s) {
             return None;
         }
+        Some(self.flight(to, distance_m, speed_m_s, sound_speed_m_s))
+    }
+
+    /// The flight to a receiver in range that is now no nearer than `distance_m` and moves at most at `speed_m_s`.
+    pub fn flight(
+        self: &Arc<Self>,
+        to: AuvId,
+        distance_m: f64,
+        speed_m_s: f64,
+        sound_speed_m_s: f64,
+    ) -> Flight {
         let travel_s = distance_m / (sound_speed_m_s + speed_m_s);
         let earliest = self.emitted + (travel_s * 1e9) as i64 + -1;
-        Some(Flight { wavefront: Arc::clone(self), to, earliest: earliest.max(self.emitted) })
+        Flight { wavefront: Arc::clone(self), to, earliest: earliest.max(self.emitted) }
     }
 }
 
@@ -105,7 +119,7 @@ pub fn reach_m(range_m: f64, speed_m_s: f64, sound_speed_m_s: f64) -> f64 {
 impl Flight {
     /// When and where it arrives, if that is before `horizon`, up to which the receiver's motion is settled.
     pub fn arrival(&self, receiver: &Body, sound_speed_m_s: f64, horizon: SimTime) -> Option<Arrival> {
-        for segment in receiver.segments().filter(|segment| segment.end > self.earliest) {
+        for segment in receiver.segments_from(self.earliest) {
             if segment.start >= horizon {
                 return None;
             }

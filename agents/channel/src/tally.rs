@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use shoal_bus::chronicle::{Entry, Violation, What};
-use shoal_bus::message::AuvId;
+use shoal_bus::message::{AuvId, Report, box_width};
 use shoal_bus::summary::{
     Agents, Containment, Flock, Kidnapped, LostAgent, Misled, Pings, SUMMARY_FORMAT, Summary, ViolationLine,
     Widths,
@@ -12,7 +12,9 @@ use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::Scenario;
 
+use crate::accuracy::{self, Accuracy};
 use crate::assumption::assumptions;
+use crate::body::Vec3;
 
 /// So many violations are told one by one in a summary.
 const VIOLATIONS_TOLD: usize = 10;
@@ -30,6 +32,7 @@ pub struct Tally {
     heard: Vec<u64>,
     first_violations: Vec<(SimTime, AuvId, Violation)>,
     widths: Vec<Option<ReportWidths>>,
+    accuracy: Vec<Accuracy>,
     pings: Pings,
     lost: Vec<LostAgent>,
 }
@@ -78,6 +81,7 @@ impl Tally {
             heard: vec![0; auvs],
             first_violations: Vec::new(),
             widths: vec![None; auvs],
+            accuracy: vec![Accuracy::default(); auvs],
             pings: Pings::default(),
             lost: Vec::new(),
         }
@@ -142,10 +146,12 @@ impl Tally {
         self.noticed_after_ns.push(after_ns);
     }
 
-    /// An AUV reported enclosures of these widths, in metres and seconds.
-    pub fn reported(&mut self, auv: AuvId, position_m: f64, clock_s: f64) {
+    /// An AUV reported what it believes; the truth at its tick is `position_m` and, true minus local time, `offset_s`.
+    pub fn reported(&mut self, auv: AuvId, report: &Report, position_m: &Vec3, offset_s: f64) {
+        self.accuracy[auv.0 as usize].reported(report, position_m, offset_s);
         // An unbounded report counts as the widest number there is: summaries are JSON, which has no infinity.
-        let now = [position_m, clock_s].map(|width| if width.is_finite() { width } else { f64::MAX });
+        let widths = [box_width(&report.position_m), report.clock_offset_s.width()];
+        let now = widths.map(|width| if width.is_finite() { width } else { f64::MAX });
         let slot = &mut self.widths[auv.0 as usize];
         slot.get_or_insert(ReportWidths { first: now, last: now }).last = now;
     }
@@ -190,6 +196,7 @@ impl Tally {
             wakes: self.wakes,
             digest,
             containment: self.containment(scenario),
+            estimators: accuracy::lines(scenario, &self.accuracy),
             position_width_m: widths(0),
             clock_width_s: widths(1),
             pings: Pings { in_flight, ..self.pings },

@@ -2,10 +2,12 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Acted, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{Acted, AuvId, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
+use shoal_scenario::LISTEN_MAX_NS;
 
+use crate::bearing::{BearingArray, Incidence};
 use crate::birth::Newborn;
 use crate::body::{Body, Pose, Vec3};
 use crate::clock::TrueClock;
@@ -14,8 +16,6 @@ use crate::sensors::Sensors;
 
 /// So many pings beyond twice its schedule may wait to be emitted; more is an AUV out of its mind.
 const PINGS_OUTSTANDING: usize = 64;
-/// A modem listens at most so long before it emits, in nanoseconds.
-pub const LISTEN_MAX_NS: i64 = 10 * 1_000_000_000;
 /// A ping may be booked at most so much earlier than a schedule needs, in local nanoseconds.
 const BOOKING_SLACK_NS: i64 = 60 * 1_000_000_000;
 
@@ -42,9 +42,12 @@ pub struct Vehicle {
     sensors: Sensors,
     timestamps: Draws,
     timestamp_error_s: f64,
+    bearings: Option<BearingArray>,
     next_tick: u64,
     next_tick_at: SimTime,
     last_tick_at: SimTime,
+    /// The truth at the moment between ticks, once that moment is over.
+    between: Option<(Vec3, f64)>,
     heard: Vec<HeardPing>,
     held: Vec<(LocalTime, SimTime)>,
     planned: VecDeque<Planned>,
@@ -77,8 +80,10 @@ struct Kidnapping {
 struct HeardPing {
     stamp: LocalTime,
     at: SimTime,
-    from: u32,
+    from: AuvId,
     frame: Frame,
+    /// Where it came from, if the AUV has an array.
+    bearing: Option<Sense>,
 }
 
 /// A tick that waits for its answer, with the truth to check it against.
@@ -92,16 +97,16 @@ pub struct Tick {
     pub at: SimTime,
     /// The truth at it.
     pub pose: Pose,
-    /// A moment between the tick before (or birth) and this one.
-    pub between: SimTime,
-    /// The true position at that moment, in metres.
+    /// The true position at a moment between the tick before (or birth) and this one, in metres.
     pub between_position_m: Vec3,
+    /// True time minus local time at that moment, in seconds.
+    pub between_offset_s: f64,
 }
 
 impl Vehicle {
     /// A newborn in the water.
     pub fn new(newborn: Newborn, ground_speed_m_s: f64, length_m: f64, timestamp_error_s: f64) -> Self {
-        let Newborn { mut clock, body, sensors, arrivals, born } = newborn;
+        let Newborn { mut clock, body, sensors, arrivals, bearings, born } = newborn;
         let next_tick_at = clock.reaches(born.wake.first_tick);
         Self {
             born,
@@ -117,9 +122,11 @@ impl Vehicle {
             sensors,
             timestamps: arrivals,
             timestamp_error_s,
+            bearings,
             next_tick: 0,
             next_tick_at,
             last_tick_at: SimTime::ZERO,
+            between: None,
             heard: Vec::new(),
             held: Vec::new(),
             planned: VecDeque::new(),
@@ -162,7 +169,8 @@ impl Vehicle {
 
     /// Whether kidnappers had its modem out of the water between `since` and `at`.
     pub fn was_kidnapped_between(&self, since: SimTime, at: SimTime) -> bool {
-        self.kidnappings.iter().any(|of| since <= of.at && of.at <= at)
+        // The body leaps at the next knot.
+        self.kidnappings.iter().any(|of| since <= of.at && of.at <= at) || self.body.leapt_between(since, at)
     }
 
     /// It said at its tick at `at` that nothing was left of its set; the answer is the nanoseconds since the kidnapping that it
@@ -176,11 +184,25 @@ impl Vehicle {
         since.max()
     }
 
+    /// Whether it measures from where pings come.
+    pub fn has_bearings(&self) -> bool {
+        self.bearings.is_some()
+    }
+
     /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.
-    pub fn hear(&mut self, at: SimTime, stamp: Option<LocalTime>, from: u32, frame: &Frame) {
+    pub fn hear(
+        &mut self,
+        at: SimTime,
+        stamp: Option<LocalTime>,
+        from: AuvId,
+        frame: &Frame,
+        incidence: Option<&Incidence>,
+    ) {
         let error_ns = (self.timestamps.error(self.timestamp_error_s) * 1e9) as i64;
         let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns;
-        self.heard.push(HeardPing { stamp, at, from, frame: *frame });
+        let bearing =
+            self.bearings.as_mut().zip(incidence).map(|(array, incidence)| array.sense(from, incidence));
+        self.heard.push(HeardPing { stamp, at, from, frame: *frame, bearing });
     }
 
     /// Its modem held back, at true time `at`, the ping that was booked for `stamp`.
@@ -241,16 +263,16 @@ impl Vehicle {
         let stamp = wake.first_tick + self.next_tick as i64 * wake.period_ns;
         let at = self.next_tick_at;
         let pose = self.body.at(at);
-        let between = self.last_tick_at + (at - self.last_tick_at) / 2;
-        let between_position_m = self.body.at(between).position_m;
+        let (between_position_m, between_offset_s) =
+            self.between.take().unwrap_or_else(|| self.truth_at(self.between_ticks()));
 
-        let mut events = Vec::new();
+        let mut events = Vec::with_capacity(self.heard.len() + 4);
         self.sensors.sense(stamp, at, &pose, &mut events);
         self.hand_over_heard(stamp, at, &mut events);
         self.hand_over_held(stamp, at, &mut events);
         events.sort_by_key(|event| (event.stamp, kind_rank(&event.sense)));
 
-        let tick = Tick { index: self.next_tick, stamp, at, pose, between, between_position_m };
+        let tick = Tick { index: self.next_tick, stamp, at, pose, between_position_m, between_offset_s };
         self.answered.push_back(tick);
         self.next_tick += 1;
         self.last_tick_at = at;
@@ -260,15 +282,12 @@ impl Vehicle {
 
     /// Pings heard up to this tick, in the order (stamp, emitter).
     fn hand_over_heard(&mut self, stamp: LocalTime, at: SimTime, events: &mut Vec<Event>) {
-        let (mut ready, waiting): (Vec<_>, Vec<_>) =
-            self.heard.drain(..).partition(|ping| ping.stamp <= stamp && ping.at <= at);
-        self.heard = waiting;
-        ready.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
-        events.extend(
-            ready
-                .into_iter()
-                .map(|ping| Event { stamp: ping.stamp, sense: Sense::Heard { frame: ping.frame } }),
-        );
+        self.heard.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
+        let ready = self.heard.extract_if(.., |ping| ping.stamp <= stamp && ping.at <= at);
+        for HeardPing { stamp, frame, bearing, .. } in ready {
+            events.push(Event { stamp, sense: Sense::Heard { frame } });
+            events.extend(bearing.map(|sense| Event { stamp, sense }));
+        }
     }
 
     /// Pings held back up to this tick.
@@ -299,9 +318,21 @@ impl Vehicle {
 
     /// Forgets the past that no later window of true time from `now` on asks for.
     pub fn forget_before(&mut self, now: SimTime) {
-        let needed = if self.alive { self.last_tick_at.min(now) } else { now };
-        self.body.forget_before(needed);
-        self.clock.forget_before(needed);
+        if self.alive && self.between.is_none() && self.between_ticks() < now {
+            self.between = Some(self.truth_at(self.between_ticks()));
+        }
+        self.body.forget_before(now);
+        self.clock.forget_before(now);
+    }
+
+    /// Halfway from the last tick (or birth) to the next.
+    fn between_ticks(&self) -> SimTime {
+        self.last_tick_at + (self.next_tick_at - self.last_tick_at) / 2
+    }
+
+    /// True position in metres, and true time minus local time in seconds.
+    fn truth_at(&mut self, at: SimTime) -> (Vec3, f64) {
+        (self.body.position_at(at), self.clock.offset_s(at))
     }
 }
 
@@ -313,7 +344,8 @@ fn kind_rank(sense: &Sense) -> u8 {
         Sense::Depth { .. } => 2,
         Sense::Gnss { .. } => 3,
         Sense::Heard { .. } => 4,
-        Sense::Held => 5,
+        Sense::Bearing { .. } => 5,
+        Sense::Held => 6,
     }
 }
 

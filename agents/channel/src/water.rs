@@ -117,6 +117,9 @@ pub fn stated_profile(environment: &Environment, sea: &Sea) -> Result<Profile, P
 /// speed that is not in the column.
 fn between_surface_and_bottom(profile: &Profile, bottom_m: f64) -> Result<Profile, ProfileError> {
     let end = |depth_m| Node { depth_m, speed_m_s: profile.speed_m_s(depth_m) };
+    if bottom_m < 0.002 {
+        return Profile::new(&[end(0.0)]);
+    }
     // Nodes may not be as close as a millimetre to each other.
     let inside = |node: &&Node| 0.002 < node.depth_m && node.depth_m < bottom_m - 0.002;
     let inner = profile.nodes().iter().filter(inside).copied();

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::foxglove::{Level, Log};
-use super::rows::{PingRow, ReportRow, TruthRow};
+use super::rows::{OfflineRow, PingRow, ReportRow, TruthRow};
 use super::{BATCH_NS, RecordWriteError, Topic};
 use crate::chronicle::{Truth, Violation};
 use crate::codec;
@@ -109,6 +109,19 @@ impl Batch {
             .chain(rows.into_iter().filter_map(|(topic, rows)| Some((topic, rows.finish()?))))
             .chain(self.sensed.finish().map(|bytes| (Topic::Sensed, bytes)))
     }
+}
+
+/// The messages of `rows`, sorted by time: one for each batch.
+pub(super) fn offline_messages(rows: &[OfflineRow]) -> Result<Vec<(SimTime, Vec<u8>)>, RecordWriteError> {
+    let mut messages = Vec::new();
+    for batch in rows.chunk_by(|one, next| batch_end(one.t_ns) == batch_end(next.t_ns)) {
+        let Some(first) = batch.first() else { continue };
+        let end = batch_end(first.t_ns);
+        let mut message = Rows::new("offline", end);
+        batch.iter().try_for_each(|row| message.push(row))?;
+        messages.extend(message.finish().map(|text| (end, text)));
+    }
+    Ok(messages)
 }
 
 /// A JSON message that grows row by row: `{"from_ns":…,"to_ns":…,"NAME":[…]}`.

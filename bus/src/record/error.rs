@@ -130,6 +130,14 @@ pub enum Damage {
         /// What is wrong with it.
         source: serde_json::Error,
     },
+    /// A message is not one that its schema describes.
+    #[error("a message of {topic} is malformed: {source}")]
+    Message {
+        /// The topic.
+        topic: &'static str,
+        /// What is wrong with it.
+        source: CodecError,
+    },
     /// A record cannot be parsed.
     #[error("a record is malformed: {0}")]
     Structure(McapError),

@@ -5,9 +5,12 @@ use std::io::{Read, Seek};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use super::rows::{PingRow, ReportRow, TruthRow};
+use super::rows::{OfflineRow, PingRow, ReportRow, TruthRow};
 use super::scan::{Ending, Item, Source, scan};
 use super::{Damage, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordReadError, RecordedAuv, Topic};
+use crate::codec;
+use crate::message::{AuvId, Born, Sensed};
+use crate::time::SimTime;
 
 /// One row of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,16 +20,30 @@ pub enum Row {
     /// One AUV's true state at a tick, from [`Topic::Ticks`].
     Truth(TruthRow),
     /// What one AUV answered and believed at a tick, from [`Topic::Reports`].
-    Report(ReportRow),
+    Report(Box<ReportRow>),
     /// What became of a ping, from [`Topic::Pings`].
     Ping(PingRow),
+    /// What one AUV was told at a tick, from [`Topic::Sensed`].
+    Sensed {
+        /// True time of the tick.
+        at: SimTime,
+        /// Which AUV.
+        auv: AuvId,
+        /// What it was told.
+        sensed: Sensed,
+    },
+    /// What one AUV was told at birth, from [`Topic::Born`].
+    Born(Box<Born>),
+    /// What is known of one AUV at a tick after the run, from [`Topic::Offline`].
+    Offline(OfflineRow),
 }
 
 /// Hands the header and the rows of `topics` to `visit`, in the order of the file, and tells how the file ends.
 ///
-/// Within a batch (100 ms) all ticks come before all reports and all reports before all pings; each are sorted by time.
-/// Messages of topics that are not asked for are not parsed, but their checksums are verified. Topics other than
-/// [`Topic::Ticks`], [`Topic::Reports`] and [`Topic::Pings`] have no rows.
+/// What was told at birth comes first. Within a batch (100 ms) all ticks come before all reports, all reports before all pings, and
+/// all pings before what was sensed; each are sorted by time. What was reconstructed after the run comes last.
+/// Messages of topics that are not asked for are not parsed, but their checksums are verified. Topics that
+/// are for viewers and people have no rows.
 ///
 /// Memory: one chunk and the rows of one message, whatever the length of the file.
 ///
@@ -117,15 +134,34 @@ fn is_of(source: &Source, topic: Topic) -> bool {
 fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
     match topic {
         Topic::Ticks => parse::<Ticks>(topic, data)?.ticks.into_iter().map(Row::Truth).for_each(visit),
-        Topic::Reports => parse::<Reports>(topic, data)?.reports.into_iter().map(Row::Report).for_each(visit),
+        Topic::Reports => parse::<Reports>(topic, data)?
+            .reports
+            .into_iter()
+            .map(|row| Row::Report(Box::new(row)))
+            .for_each(visit),
         Topic::Pings => parse::<Pings>(topic, data)?.pings.into_iter().map(Row::Ping).for_each(visit),
-        Topic::Auvs | Topic::Poses | Topic::Log | Topic::Sensed | Topic::Summary => {}
+        Topic::Sensed => {
+            let told: Vec<(SimTime, AuvId, Sensed)> = decode(topic, data)?;
+            told.into_iter().map(|(at, auv, sensed)| Row::Sensed { at, auv, sensed }).for_each(visit);
+        }
+        Topic::Born => {
+            let born: Vec<Born> = decode(topic, data)?;
+            born.into_iter().map(|born| Row::Born(Box::new(born))).for_each(visit);
+        }
+        Topic::Offline => {
+            parse::<Offline>(topic, data)?.offline.into_iter().map(Row::Offline).for_each(visit);
+        }
+        Topic::Auvs | Topic::Poses | Topic::Log | Topic::Summary => {}
     }
     Ok(())
 }
 
 fn parse<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
     serde_json::from_slice(data).map_err(|source| Damage::Rows { topic: topic.name(), source })
+}
+
+fn decode<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
+    codec::decode(data).map_err(|source| Damage::Message { topic: topic.name(), source })
 }
 
 #[derive(Deserialize)]
@@ -146,4 +182,9 @@ struct Reports {
 #[derive(Deserialize)]
 struct Pings {
     pings: Vec<PingRow>,
+}
+
+#[derive(Deserialize)]
+struct Offline {
+    offline: Vec<OfflineRow>,
 }

@@ -30,11 +30,13 @@ fn vector(of: [f64; 3]) -> Vector {
     of.map(Real)
 }
 
-fn pair(of: Bounds) -> Pair {
+/// `[lower, upper]` of `of`.
+pub fn pair(of: Bounds) -> Pair {
     [Real(of.lower), Real(of.upper)]
 }
 
-fn sides(of: BoundsBox) -> [Pair; 3] {
+/// `[lower, upper]` of each side.
+pub fn sides(of: BoundsBox) -> [Pair; 3] {
     of.map(pair)
 }
 
@@ -105,6 +107,9 @@ pub struct ReportRow {
     pub rejected: u16,
     /// Separate parts of the set.
     pub components: u16,
+    /// The neighbours that it follows in its own frame.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub around: Vec<AroundRow>,
     /// What a Kalman filter believes.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub gaussian: Option<GaussianRow>,
@@ -133,6 +138,11 @@ impl ReportRow {
             contractions: report.contractions,
             rejected: report.rejected,
             components: report.components,
+            around: report
+                .around
+                .iter()
+                .map(|around| AroundRow { auv: around.auv, position_m: around.position_m.map(pair) })
+                .collect(),
             gaussian: report.gaussian.map(|gaussian| GaussianRow {
                 mean: gaussian.mean.map(Real),
                 covariance: gaussian.covariance.map(Real),
@@ -145,6 +155,36 @@ impl ReportRow {
                 .collect(),
         }
     }
+}
+
+/// What is known of one AUV at one of its ticks after the run: an element of `offline` in `shoal.Offline/1`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OfflineRow {
+    /// Which AUV.
+    pub auv: AuvId,
+    /// Index of its tick.
+    pub tick: u64,
+    /// True time, in nanoseconds.
+    pub t_ns: SimTime,
+    /// What its clock reads, in nanoseconds.
+    pub local_ns: LocalTime,
+    /// Encloses its position as it would know it at once without any ping, in metres.
+    pub alone_position_m: [Pair; 3],
+    /// Encloses true time minus local time likewise, in seconds.
+    pub alone_clock_offset_s: Pair,
+    /// Encloses its position as all records together tell it, in metres.
+    pub position_m: [Pair; 3],
+    /// Encloses true time minus local time likewise, in seconds.
+    pub clock_offset_s: Pair,
+}
+
+/// A neighbour as it is seen from an AUV.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AroundRow {
+    /// Which neighbour.
+    pub auv: AuvId,
+    /// Encloses its position less that of the AUV at the tick, in metres: east and north.
+    pub position_m: [Pair; 2],
 }
 
 /// A Gaussian over position and clock.
@@ -189,6 +229,21 @@ pub struct BookedRow {
     pub at_local_ns: LocalTime,
     /// The frame's bytes, two hexadecimal digits each.
     pub frame: String,
+}
+
+impl BookedRow {
+    /// The frame's bytes; `None` when they are not hexadecimal.
+    pub fn bytes(&self) -> Option<Vec<u8>> {
+        let digits: Option<Vec<u8>> = self
+            .frame
+            .chars()
+            .map(|digit| digit.to_digit(16).and_then(|digit| u8::try_from(digit).ok()))
+            .collect();
+        digits?
+            .chunks(2)
+            .map(|pair| if let [high, low] = pair { Some(high << 4 | low) } else { None })
+            .collect()
+    }
 }
 
 fn hexadecimal(bytes: &[u8]) -> String {

@@ -1,5 +1,6 @@
 //! Tests of the record as a whole.
 
+mod append;
 mod bytes;
 mod damage;
 mod outside;

@@ -1,6 +1,7 @@
 //! The topics of a record: their names, schemas and encodings.
 
-/// Message encoding of `/sensed`: [`codec::encode`](crate::codec::encode) of `Vec<(SimTime, AuvId, Sensed)>`.
+/// Message encoding of `/sensed` and `/born`: [`codec::encode`](crate::codec::encode) of `Vec<(SimTime, AuvId, Sensed)>` and of
+/// `Vec<Born>`.
 pub const SENSED_ENCODING: &str = "application/x-shoal-bincode";
 
 /// One topic of a record.
@@ -27,11 +28,15 @@ pub enum Topic {
     Sensed,
     /// The outcome.
     Summary,
+    /// What the AUVs were told at birth.
+    Born,
+    /// Trajectories reconstructed after the run.
+    Offline,
 }
 
 impl Topic {
     /// All topics, in the order of their channels.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Auvs,
         Self::Poses,
         Self::Log,
@@ -40,6 +45,8 @@ impl Topic {
         Self::Pings,
         Self::Sensed,
         Self::Summary,
+        Self::Born,
+        Self::Offline,
     ];
 
     /// The topic's name in the file.
@@ -53,6 +60,8 @@ impl Topic {
             Self::Pings => "/pings",
             Self::Sensed => "/sensed",
             Self::Summary => "/summary",
+            Self::Born => "/born",
+            Self::Offline => "/offline",
         }
     }
 
@@ -67,10 +76,12 @@ impl Topic {
             Self::Pings => "shoal.Pings/1",
             Self::Sensed => "shoal.Sensed/1",
             Self::Summary => "shoal.Summary/1",
+            Self::Born => "shoal.Born/1",
+            Self::Offline => "shoal.Offline/1",
         }
     }
 
-    /// The schema: JSON Schema, except for `/sensed`, whose layout is described in words.
+    /// The schema: JSON Schema, except for `/sensed` and `/born`, whose layout is described in words.
     pub fn schema_text(self) -> &'static str {
         match self {
             Self::Auvs => include_str!("../../schemas/shoal.Auvs.1.json"),
@@ -81,13 +92,15 @@ impl Topic {
             Self::Pings => include_str!("../../schemas/shoal.Pings.1.json"),
             Self::Sensed => include_str!("../../schemas/shoal.Sensed.1.txt"),
             Self::Summary => include_str!("../../schemas/shoal.Summary.1.json"),
+            Self::Born => include_str!("../../schemas/shoal.Born.1.txt"),
+            Self::Offline => include_str!("../../schemas/shoal.Offline.1.json"),
         }
     }
 
     /// Encoding of its schema.
     pub fn schema_encoding(self) -> &'static str {
         match self {
-            Self::Sensed => "text/plain",
+            Self::Sensed | Self::Born => "text/plain",
             _ => "jsonschema",
         }
     }
@@ -95,7 +108,7 @@ impl Topic {
     /// Encoding of its messages.
     pub fn message_encoding(self) -> &'static str {
         match self {
-            Self::Sensed => SENSED_ENCODING,
+            Self::Sensed | Self::Born => SENSED_ENCODING,
             _ => "json",
         }
     }

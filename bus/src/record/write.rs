@@ -1,5 +1,7 @@
 //! Writes a record: batches by simulated time, a flush every simulated second.
 
+mod append;
+
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -8,11 +10,15 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions};
 
+pub use append::{AppendError, append_offline};
+
 use super::batch::{Batch, batch_end};
 use super::foxglove::{Pose, PosesInFrame};
 use super::header::Auvs;
 use super::{METADATA_OUTCOME, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordWriteError, Topic};
 use crate::chronicle::{Entry, Truth, What};
+use crate::codec;
+use crate::message::{AuvId, Born};
 use crate::summary::Summary;
 use crate::time::{NS_PER_S, SimTime};
 
@@ -102,6 +108,17 @@ impl<W: Write> RecordWriter<W> {
         record.write(Topic::Auvs, SimTime::ZERO, &serde_json::to_vec(&Auvs { auvs: &header.auvs })?)?;
         record.mcap.flush()?;
         Ok(record)
+    }
+
+    /// Keeps what every AUV was told at birth. Call it before any [`append`](Self::append).
+    ///
+    /// # Errors
+    /// When the destination does not take the bytes.
+    pub fn born(&mut self, born: &[Born]) -> Result<(), RecordWriteError> {
+        let auv = born.first().map_or(AuvId(0), |born| born.auv);
+        let bytes = codec::encode(&born).map_err(|source| RecordWriteError::Encode { auv, source })?;
+        self.write(Topic::Born, SimTime::ZERO, &bytes)?;
+        Ok(self.mcap.flush()?)
     }
 
     /// Appends the entries of one window, sorted by time as the chronicle sorts them.
@@ -199,14 +216,20 @@ impl<W: Write> RecordWriter<W> {
     fn close_batch(&mut self) -> Result<(), RecordWriteError> {
         let Some(batch) = self.batch.take() else { return Ok(()) };
         let end = batch.end;
-        if end > second_end(self.written) {
-            self.mcap.flush()?;
-        }
+        self.flush_second(end)?;
         if batch.moved() {
             let poses = self.latest.iter().flatten().map(Pose::new).collect();
             self.write(Topic::Poses, end, &serde_json::to_vec(&PosesInFrame::new(end, poses))?)?;
         }
         batch.into_messages().try_for_each(|(topic, message)| self.write(topic, end, &message))
+    }
+
+    /// Ends the chunk when `at` begins another second than that of the last message.
+    fn flush_second(&mut self, at: SimTime) -> Result<(), RecordWriteError> {
+        if at > second_end(self.written) {
+            self.mcap.flush()?;
+        }
+        Ok(())
     }
 
     fn write(&mut self, topic: Topic, at: SimTime, message: &[u8]) -> Result<(), RecordWriteError> {
@@ -228,6 +251,9 @@ fn second_end(at: SimTime) -> SimTime {
 }
 
 fn metadata<const N: usize>(name: &str, pairs: [(&str, String); N]) -> Metadata {
-    let metadata = pairs.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    metadata_of(name, pairs.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+}
+
+fn metadata_of(name: &str, metadata: BTreeMap<String, String>) -> Metadata {
     Metadata { name: name.to_owned(), metadata }
 }

@@ -126,6 +126,7 @@ impl Mind for Echo {
                 neighbours: 0,
                 contractions: sensed.events.len() as u16,
                 rejected: 0,
+                around: Vec::new(),
                 components: 1,
                 gaussian: None,
             },
@@ -174,6 +175,7 @@ pub fn born(count: u32) -> Vec<Born> {
             access: MediumAccess::Silent,
             area_m: side,
             sabotage: None,
+            relative: None,
         },
     };
     auvs(count).into_iter().map(one).collect()

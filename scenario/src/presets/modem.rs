@@ -34,6 +34,7 @@ pub const IDEAL: Modem = Modem {
     range_m: 500.0,
     access: every(1),
     timestamp_error_s: 1e-5,
+    bearing_error_rad: None,
     frame_bytes: 64,
     physical: None,
     addresses: None,
@@ -67,7 +68,8 @@ pub const MICROMODEM_FSK: Modem = Modem {
     range_m: 2000.0, // ours: kilometres are usual at 25 kHz
     access: every(10),
     timestamp_error_s: 1.25e-4, // ICRA 2007, unchecked
-    frame_bytes: 32,            // maker: one frame of 32 bytes
+    bearing_error_rad: None,
+    frame_bytes: 32, // maker: one frame of 32 bytes
     physical: Some(PhysicalLayer {
         source_level_db: 185.0, // ours: 50 W (maker) at 50 %, to all sides: 170.8 + 10 lg 25 = 184.8
         centre_hz: 25_000.0,    // maker, unchecked: the highest of its bands
@@ -108,7 +110,8 @@ pub const MICROMODEM_PSK: Modem = Modem {
     range_m: 2000.0, // ours
     access: every(5),
     timestamp_error_s: 1.25e-4, // ICRA 2007, unchecked
-    frame_bytes: 64,            // maker
+    bearing_error_rad: None,
+    frame_bytes: 64, // maker
     physical: Some(PhysicalLayer {
         source_level_db: 185.0, // ours, as for FSK
         centre_hz: 25_000.0,    // maker, unchecked
@@ -150,7 +153,8 @@ pub const EVOLOGICS_18_34: Modem = Modem {
     range_m: 3500.0, // maker
     access: every(2),
     timestamp_error_s: 1e-5, // ours: the maker states ranges to 0.01 m, which is 7 µs
-    frame_bytes: 64,         // maker, unchecked: instant messages
+    bearing_error_rad: None,
+    frame_bytes: 64, // maker, unchecked: instant messages
     physical: Some(PhysicalLayer {
         source_level_db: 184.0, // ours: 35 W (maker) at 30 %, into a half-sphere: 170.8 + 10 lg 10.5 + 3 = 184.0
         centre_hz: 26_000.0,    // maker
@@ -192,7 +196,8 @@ pub const SEATRAC: Modem = Modem {
     range_m: 1000.0, // maker
     access: every(5),
     timestamp_error_s: 3.4e-5, // maker, unchecked: ranges to ±0.05 m, which is 33 µs
-    frame_bytes: 31,           // maker
+    bearing_error_rad: None,
+    frame_bytes: 31, // maker
     physical: Some(PhysicalLayer {
         source_level_db: 176.0, // maker, unchecked
         centre_hz: 28_000.0,    // maker
@@ -234,7 +239,8 @@ pub const POPOTO: Modem = Modem {
     range_m: 3000.0, // maker: the upper end of "1 to 3 km"
     access: every(2),
     timestamp_error_s: 1e-4, // ours: one sample of its baseband of 10,240 samples/s
-    frame_bytes: 64,         // ours: its packets are longer, the bus carries no more
+    bearing_error_rad: None,
+    frame_bytes: 64, // ours: its packets are longer, the bus carries no more
     physical: Some(PhysicalLayer {
         source_level_db: 180.0, // ours: 20 W (maker) at 40 %, to all sides: 170.8 + 10 lg 8 = 179.8
         centre_hz: 25_000.0,    // maker

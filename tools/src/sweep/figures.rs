@@ -17,7 +17,7 @@ pub struct Figure {
 }
 
 /// Every column of the table.
-pub const FIGURES: [Figure; 6] = [
+pub const FIGURES: [Figure; 8] = [
     Figure {
         title: "pings emitted",
         name: "emitted",
@@ -54,6 +54,14 @@ pub const FIGURES: [Figure; 6] = [
         of: |summary| Some(summary.position_width_m.end_median),
     },
     Figure {
+        title: "truth inside",
+        name: "contained_fraction",
+        more_is_worse: false,
+        decimals: [4, 4],
+        of: contained_fraction,
+    },
+    Figure { title: "NEES (4)", name: "nees_mean", more_is_worse: true, decimals: [2, 2], of: nees_mean },
+    Figure {
         title: "violations",
         name: "violations",
         more_is_worse: true,
@@ -70,6 +78,21 @@ fn delivery_ratio(summary: &Summary) -> Option<f64> {
         lost.noise + lost.collision + lost.half_duplex + lost.shadow + lost.asleep + lost.band + lost.dead;
     let tried = summary.pings.heard + failed;
     (tried > 0).then(|| summary.pings.heard as f64 / tried as f64)
+}
+
+/// Reports that held the truth, of all of every group.
+fn contained_fraction(summary: &Summary) -> Option<f64> {
+    let reports: u64 = summary.estimators.iter().map(|line| line.reports).sum();
+    let contained: f64 =
+        summary.estimators.iter().map(|line| line.contained_fraction * line.reports as f64).sum();
+    (reports > 0).then(|| contained / reports as f64)
+}
+
+/// Normalized estimation error squared over all reports that have one: 4 for honest Gaussians.
+fn nees_mean(summary: &Summary) -> Option<f64> {
+    let told = || summary.estimators.iter().filter_map(|line| Some((line.nees_mean?, line.reports as f64)));
+    let reports: f64 = told().map(|(_, reports)| reports).sum();
+    (reports > 0.0).then(|| told().map(|(nees, part)| nees * (part / reports)).sum())
 }
 
 /// What a figure comes to over the seeds of one combination.

@@ -1,4 +1,4 @@
-mod truth;
+pub(crate) mod truth;
 
 use nalgebra::Vector3;
 use proptest::prelude::*;

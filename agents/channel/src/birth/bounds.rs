@@ -1,7 +1,7 @@
 //! What is certain about body and modem, as an AUV is told.
 
-use shoal_bus::message::{BodyBounds, Bounds, BoundsBox, ModemBounds};
-use shoal_scenario::model::{Environment, Group, Level, Scenario};
+use shoal_bus::message::{BodyBounds, Bounds, BoundsBox, Measures, ModemBounds, Relative};
+use shoal_scenario::model::{self, Environment, Group, Level, Scenario};
 
 use crate::body::{Body, Vec3};
 use crate::budget::nominal_reach_m;
@@ -41,6 +41,40 @@ pub fn body(scenario: &Scenario, group: &Group) -> BodyBounds {
         current_step_m_s,
         disturbance_m_s,
     }
+}
+
+/// How neighbours are followed; all of them keep the bounds of the fastest and nimblest.
+pub fn relative(scenario: &Scenario, of: &model::Relative) -> Relative {
+    let all = scenario.groups.iter().map(|group| body(scenario, group));
+    let hull = |one: &BoundsBox, other: &BoundsBox| {
+        std::array::from_fn(|axis| {
+            let (one, other) = (one[axis], other[axis]);
+            Bounds::new(one.lower.min(other.lower), one.upper.max(other.upper))
+        })
+    };
+    let greater = |one: [f64; 3], other: [f64; 3]| std::array::from_fn(|axis| one[axis].max(other[axis]));
+    let nobody = BodyBounds {
+        speed_m_s: 0.0,
+        acceleration_m_s2: 0.0,
+        current_m_s: current(&scenario.environment),
+        current_change_m_s2: [0.0; 3],
+        current_step_m_s: [0.0; 3],
+        disturbance_m_s: [Bounds::default(); 3],
+    };
+    let fellows = all.fold(nobody, |one, other| BodyBounds {
+        speed_m_s: one.speed_m_s.max(other.speed_m_s),
+        acceleration_m_s2: one.acceleration_m_s2.max(other.acceleration_m_s2),
+        current_m_s: hull(&one.current_m_s, &other.current_m_s),
+        current_change_m_s2: greater(one.current_change_m_s2, other.current_change_m_s2),
+        current_step_m_s: greater(one.current_step_m_s, other.current_step_m_s),
+        disturbance_m_s: hull(&one.disturbance_m_s, &other.disturbance_m_s),
+    });
+    let measures = match of.measures {
+        model::Measures::RangeAndBearing => Measures::RangeAndBearing,
+        model::Measures::Bearing => Measures::Bearing,
+        model::Measures::Range => Measures::Range,
+    };
+    Relative { measures, exchanged: of.exchanged, remembered: of.remembered, fellows }
 }
 
 /// The current wherever a body is taken, inside the area or not, in m/s.

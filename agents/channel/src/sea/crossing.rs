@@ -4,8 +4,9 @@ use shoal_bus::time::SimTime;
 use shoal_bus::traffic::SoundPath;
 
 use crate::acoustics::doppler::doppler_factor;
-use crate::acoustics::ray::Ray;
-use crate::body::{Body, Vec3};
+use crate::acoustics::ray::{Direction, Ray};
+use crate::bearing::Incidence;
+use crate::body::{Body, Pose, Vec3};
 use crate::sound::Wavefront;
 
 use super::SeaWater;
@@ -42,8 +43,12 @@ pub struct Meeting {
     pub start: SimTime,
     /// Distance between the places of emission and reception in metres, straight through the water.
     pub range_m: f64,
+    /// Bound of the error of that, in metres: what the receiver moves until the nanosecond that `start` names.
+    pub range_error_m: f64,
     /// Factor of frequencies.
     pub doppler: f64,
+    /// How sound comes in.
+    pub incidence: Incidence,
 }
 
 impl Crossing {
@@ -76,10 +81,13 @@ impl Crossing {
                 self.not_before_ns = elapsed_ns + gap_ns / (1.0 + speed_ratio);
                 continue;
             }
+            let start = wavefront.emitted + travel_ns.max(elapsed_ns).ceil() as i64;
             return Some(Meeting {
-                start: wavefront.emitted + travel_ns.max(elapsed_ns).ceil() as i64,
+                start,
                 range_m: (place_m - wavefront.origin_m).norm(),
+                range_error_m: speed_ratio * water.slowest_m_s * ((start - at) as f64 * 1e-9),
                 doppler: self.doppler(wavefront, place_m, receiver.ground_velocity_at(at), water),
+                incidence: self.incidence(wavefront, &receiver.at(at)),
             });
         }
         None
@@ -103,6 +111,16 @@ impl Crossing {
         self.ray.travel_s
     }
 
+    /// Back along the ray, which stays in the vertical plane of both ends.
+    fn incidence(&self, wavefront: &Wavefront, receiver: &Pose) -> Incidence {
+        let back = (wavefront.origin_m - receiver.position_m).xy().try_normalize(0.0).unwrap_or_default();
+        let Direction { cos, sin } = self.ray.arrival;
+        Incidence {
+            towards: Vec3::new(cos * back.x, cos * back.y, -sin),
+            heading_rad: receiver.attitude.heading_rad,
+        }
+    }
+
     /// Both motions along the ray, at either end.
     fn doppler(&self, wavefront: &Wavefront, place_m: Vec3, velocity_m_s: Vec3, water: &SeaWater) -> f64 {
         let profile = water.column.profile();
@@ -118,3 +136,6 @@ impl Crossing {
         doppler_factor(emitter_rate_m_s, receiver_rate_m_s, receiver_speed_m_s)
     }
 }
+
+#[cfg(test)]
+mod tests;

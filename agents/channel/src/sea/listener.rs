@@ -211,7 +211,7 @@ impl Listener {
                     travel_s,
                     box_width_m: wavefront.box_width_m,
                     reception: Some(reception),
-                    outlier: !explains(&self.stated_m_s, range_m, travel_s),
+                    outlier: !explains(&self.stated_m_s, range_m, meeting.range_error_m, travel_s),
                 }
             }
             Verdict::Lost { reason, colliding } => {
@@ -226,7 +226,7 @@ impl Listener {
             packet.wavefront = None;
             self.unused.push(arrival.flight);
         }
-        Some(Told { at, to, wavefront, fate, stamp: Some(stamp) })
+        Some(Told { at, to, wavefront, fate, stamp: Some(stamp), incidence: Some(meeting.incidence) })
     }
 }
 
@@ -236,8 +236,29 @@ fn is_awake(cycle: &DutyCycle, from: LocalTime, to: LocalTime) -> bool {
     cycle.awake_ns >= cycle.period_ns || since_waking_ns + (to - from) < cycle.awake_ns
 }
 
-/// Whether a speed of sound within these bounds explains such a travel time.
-fn explains(stated_m_s: &Bounds, range_m: f64, travel_s: f64) -> bool {
+/// Whether a speed of sound within these bounds explains such a travel time, whatever the range's error is: the AUV allows for
+/// no more than the tolerance of its arrival.
+fn explains(stated_m_s: &Bounds, range_m: f64, range_error_m: f64, travel_s: f64) -> bool {
     let (soonest_s, latest_s) = ((travel_s - ARRIVAL_TOLERANCE_S).max(0.0), travel_s + ARRIVAL_TOLERANCE_S);
-    stated_m_s.lower * soonest_s <= range_m && range_m <= stated_m_s.upper * latest_s
+    stated_m_s.lower * soonest_s <= range_m - range_error_m
+        && range_m + range_error_m <= stated_m_s.upper * latest_s
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_outlier_is_within_what_the_auv_allows_for() {
+        let stated_m_s = Bounds::new(1_480.0, 1_520.0);
+        let (tolerance_m, moved_m) = (1_480.0 * ARRIVAL_TOLERANCE_S, 1e-5);
+        // An echo as late as can be, of which the receiver may be nearer by what it moves meanwhile.
+        let nearest_m = 1_480.0 - tolerance_m;
+        assert!(explains(&stated_m_s, nearest_m + moved_m + 1e-9, moved_m, 1.0));
+        assert!(!explains(&stated_m_s, nearest_m + moved_m - 1e-9, moved_m, 1.0));
+        let farthest_m = 1_520.0 * (1.0 + ARRIVAL_TOLERANCE_S);
+        assert!(explains(&stated_m_s, farthest_m - moved_m - 1e-9, moved_m, 1.0));
+        assert!(!explains(&stated_m_s, farthest_m - moved_m + 1e-9, moved_m, 1.0));
+        assert!(explains(&stated_m_s, 0.0, 0.0, 0.0));
+    }
 }

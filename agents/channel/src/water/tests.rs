@@ -126,3 +126,12 @@ fn what_is_no_profile_is_an_error_and_no_panic() {
     let empty = SoundSpeed::Speeds { depths_m: vec![], speeds_m_s: vec![] };
     assert!(matches!(Water::new(&scenario(empty, 0.0, 50.0)), Err(ProfileError::Empty)));
 }
+
+#[test]
+fn water_less_deep_than_two_nodes_are_apart_has_one_speed() {
+    for bottom_m in [1e-9, 5e-4, 1.999e-3, 2e-3, 3e-3] {
+        let water = Water::new(&scenario(speeds(), 0.0, bottom_m)).unwrap();
+        assert!(water.told_sound_speed_m_s.contains(1520.0));
+        assert_eq!(water.column.unwrap().profile().speed_m_s(bottom_m), 1520.0);
+    }
+}

@@ -2,8 +2,8 @@
 
 use crate::chronicle::{Coordinate, Enclosure, Entry, Truth, Violation, What};
 use crate::message::{
-    Acted, AuvId, Bounds, Culprit, Emptied, Event, Gaussian, Measured, PlannedPing, Report, Sense, Sensed,
-    Setpoint, Slice,
+    Acted, Around, AuvId, Bounds, Culprit, Emptied, Event, Gaussian, Measured, PlannedPing, Report, Sense,
+    Sensed, Setpoint, Slice,
 };
 use crate::ping::Frame;
 use crate::record::{RecordHeader, RecordWriter, RecordedAuv};
@@ -44,6 +44,7 @@ pub fn summary_with(auvs: u32, end_max: f64) -> Summary {
         real_time_factor: Some(30.0),
         wakes: 210,
         digest: "blake3:00ff".into(),
+        estimators: Vec::new(),
         containment: Containment { checks: 42, violations: 2, ..Containment::default() },
         position_width_m: Widths::default(),
         clock_width_s: Widths { end_max, ..Widths::default() },
@@ -147,7 +148,11 @@ fn tick_of(auv: AuvId, at: SimTime, tick: u64, noise: &mut Noise, entries: &mut 
             contractions: 3,
             rejected: 1,
             components: 2,
-            gaussian: (tick % 2 == 0).then_some(Gaussian { mean: [0.5; 4], covariance: [0.25; 10] }),
+            around: vec![Around {
+                auv: AuvId(1),
+                position_m: [Bounds::new(-3.0, 4.0), Bounds::new(5.0, 6.5)],
+            }],
+            gaussian: tick.is_multiple_of(2).then_some(Gaussian { mean: [0.5; 4], covariance: [0.25; 10] }),
         },
     };
     let mut push = |what| entries.push(Entry { at, auv, what });

@@ -1,0 +1,59 @@
+//! `shoal localize --offline` on records of real runs.
+
+use shoal_tests::Command;
+
+#[test]
+fn a_record_becomes_trajectories_and_a_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    let [record, out, figure] =
+        ["run.mcap", "run.offline.mcap", "tubes.svg"].map(|name| folder.path().join(name));
+    // What an AUV is told at birth depends on the mood of noise, which is no part of the scenario's text here.
+    let run = "run six-circles --duration 25 --noise adversarial --seed 3 --bus local --record";
+    let summary = Command::new(run).with(&record).json();
+    let told = Command::new("localize --offline").with(&record).json();
+    assert_eq!((&told["format"], &told["estimator"]), (&"shoal.localize/1".into(), &"offline".into()));
+    assert_eq!((&told["poses"], &told["contained_fraction"]), (&summary["wakes"], &1.0.into()));
+    assert_eq!(told["all"]["contained_online"], summary["wakes"]);
+    assert_eq!((&told["ranges_used"], &told["ranges_rejected"]), (&summary["pings"]["heard"], &0.into()));
+    let width = |which: &str| told["all"]["position_width_m"]["median"][which].as_f64().unwrap();
+    assert!(width("offline") < 0.9 * width("online") && width("online") <= width("none"), "{told}");
+
+    let info = Command::new("record info --json").with(&out).finish().succeeded().json();
+    assert_eq!(info["digest"], summary["digest"]);
+    let of_auv = |auv: &str| {
+        Command::new("plot").with(&out).and("tubes --auv").with(auv).and("-o").with(&figure).finish()
+    };
+    assert_eq!(of_auv("3").code(), Some(0));
+    let svg = std::fs::read_to_string(&figure).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains("(3) offline") && svg.contains("deep-0"));
+    assert!(!svg.contains("NaN"));
+    let refused = |finished: shoal_tests::Finished, code: i32, words: &str| {
+        assert!(finished.code() == Some(code) && finished.stderr.contains(words), "{finished:?}");
+    };
+    refused(of_auv("6"), 1, "there is no AUV 6");
+    refused(Command::new("plot").with(&record).and("tubes").finish(), 1, "shoal localize RECORD --offline");
+    refused(Command::new("plot").with(&record).and("losses --auv 1").finish(), 2, "--auv is for `tubes`");
+    refused(Command::new("localize").with(&record).finish(), 2, "--offline");
+    let itself = Command::new("localize --offline").with(&record).and("--out").with(&record).finish();
+    refused(itself, 2, "would be overwritten");
+
+    let text = Command::new("localize --offline").with(&record).finish().succeeded().stdout;
+    assert!(text.contains("surface-1") && text.contains("holds the truth: offline 100.0000 %"), "{text}");
+
+    let cut = folder.path().join("cut.mcap");
+    let bytes = std::fs::read(&record).unwrap();
+    std::fs::write(&cut, &bytes[..bytes.len() / 2]).unwrap();
+    let finished = Command::new("localize --offline --json").with(&cut).finish().exited(3);
+    assert!(finished.stderr.contains("ends before the run does"), "{finished:?}");
+    let part = finished.json();
+    assert_eq!(part["contained_fraction"], 1.0);
+    assert!(part["poses"].as_u64().unwrap() < told["poses"].as_u64().unwrap());
+    for length in [0, 100, 3_000] {
+        std::fs::write(&cut, &bytes[..length]).unwrap();
+        let finished = Command::new("localize --offline").with(&cut).finish().exited(1);
+        assert!(
+            finished.stderr.starts_with("error: ") && finished.stderr.lines().count() == 1,
+            "{finished:?}"
+        );
+    }
+}
