@@ -152,7 +152,7 @@ fn tick_of(auv: AuvId, at: SimTime, tick: u64, noise: &mut Noise, entries: &mut 
                 auv: AuvId(1),
                 position_m: [Bounds::new(-3.0, 4.0), Bounds::new(5.0, 6.5)],
             }],
-            gaussian: (tick % 2 == 0).then_some(Gaussian { mean: [0.5; 4], covariance: [0.25; 10] }),
+            gaussian: tick.is_multiple_of(2).then_some(Gaussian { mean: [0.5; 4], covariance: [0.25; 10] }),
         },
     };
     let mut push = |what| entries.push(Entry { at, auv, what });
