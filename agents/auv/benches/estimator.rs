@@ -161,6 +161,7 @@ fn born(settings: TubeSettings) -> Born {
             controller: Controller::Hold,
             access: MediumAccess::Silent,
             area_m: anywhere,
+            relative: None,
             sabotage: None,
         },
     }

@@ -40,7 +40,7 @@ impl Course {
                 let body_m = IntervalBox::from([exactly(step.forward_m), exactly(step.left_m)]);
                 let step_m =
                     turned(body_m, heading_rad).inflate(bounds.step_m + bounds.relative * step.length_m());
-                heading_rad = heading_rad + exactly(step.turn_rad);
+                heading_rad += exactly(step.turn_rad);
                 step_m
             })
             .collect();
@@ -63,7 +63,7 @@ impl Course {
         let error_rad = self.heading_error_rad(pose);
         let mut way_m = IntervalBox::from([Interval::ZERO; 2]);
         (pose..self.steps_m.len()).map(move |at| {
-            way_m = way_m + self.seen_from(at, at - pose);
+            way_m += self.seen_from(at, at - pose);
             (at + 1, turned(way_m, error_rad))
         })
     }
@@ -73,7 +73,7 @@ impl Course {
         let error_rad = self.heading_error_rad(pose);
         let mut way_m = IntervalBox::from([Interval::ZERO; 2]);
         (0..pose).rev().map(move |at| {
-            way_m = way_m - self.seen_from(at, pose - at);
+            way_m -= self.seen_from(at, pose - at);
             (at, turned(way_m, error_rad))
         })
     }

@@ -16,7 +16,7 @@ pub fn dead_reckoning(mission: &Mission, start: &Start, bounds: &OdometryBounds)
     for (pose, step) in mission.steps().iter().enumerate() {
         centre_m += displacement_m(step, heading_rad);
         heading_rad += step.turn_rad;
-        position_m = position_m + course.step_m(pose);
+        position_m += course.step_m(pose);
         poses.push(Enclosed { centre_m, position_m });
     }
     Track { poses, ..Track::default() }

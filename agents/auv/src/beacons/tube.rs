@@ -69,7 +69,7 @@ impl Sweep<'_> {
         let mut position_m = start.position_m;
         for pose in 0..self.mission.pose_count() {
             if pose > 0 {
-                position_m = position_m + self.course.step_m(pose - 1);
+                position_m += self.course.step_m(pose - 1);
             }
             position_m = match self.agreed(position_m, pose, Reach::Past) {
                 Some(agreed_m) => agreed_m,
@@ -88,11 +88,11 @@ impl Sweep<'_> {
         let mut searched_m = vec![IntervalBox::ENTIRE; self.boxes_m.len()];
         for _ in 0..MOST_SWEEPS {
             let before = self.boxes_m.clone();
-            for pose in (0..self.boxes_m.len()).rev() {
-                self.narrow(pose, &mut searched_m[pose]);
+            for (pose, searched_m) in searched_m.iter_mut().enumerate().rev() {
+                self.narrow(pose, searched_m);
             }
-            for pose in 0..self.boxes_m.len() {
-                self.narrow(pose, &mut searched_m[pose]);
+            for (pose, searched_m) in searched_m.iter_mut().enumerate() {
+                self.narrow(pose, searched_m);
             }
             if !before.iter().zip(&self.boxes_m).any(|(old_m, new_m)| is_narrower(new_m, old_m)) {
                 break;

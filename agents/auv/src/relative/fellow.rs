@@ -25,6 +25,7 @@ impl Fellow {
     /// A body that keeps these bounds.
     pub fn new(body: &BodyBounds) -> Self {
         let drift_m_s = interval_box(&body.current_m_s) + interval_box(&body.disturbance_m_s);
+        #[expect(clippy::eq_op, reason = "two moments of one set are not one moment")]
         let change_m_s = drift_m_s - drift_m_s;
         let ground_m_s = drift_m_s + IntervalBox::from([Interval::centred(0.0, body.speed_m_s); 3]);
         let none = [Bounds::default(); 3];

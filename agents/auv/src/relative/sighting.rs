@@ -37,7 +37,7 @@ impl Sighting {
 
     /// The neighbour moved by `moved_m` more than the body, in metres east and north.
     pub fn carry(&mut self, moved_m: &IntervalBox<2>) {
-        self.since_m = self.since_m + *moved_m;
+        self.since_m += *moved_m;
     }
 }
 

@@ -47,7 +47,7 @@ impl Track {
 
     /// The neighbour moved by `moved_m` more than the body, in metres east and north.
     pub fn carry(&mut self, moved_m: &IntervalBox<2>) {
-        self.position_m = self.position_m + *moved_m;
+        self.position_m += *moved_m;
         for sighting in &mut self.sightings {
             sighting.carry(moved_m);
         }
