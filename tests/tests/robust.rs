@@ -7,13 +7,8 @@ use shoal_bus::chronicle::What;
 use shoal_bus::message::{Report, box_width};
 use shoal_bus::summary::Summary;
 use shoal_bus::traffic::Fate;
-use shoal_scenario::model::{Estimator, Noise, Outliers, Scenario, TubeSettings};
-use shoal_scenario::parse;
+use shoal_scenario::model::{Estimator, Noise, Scenario, TubeSettings};
 use shoal_tests::{library_scenario, run_local, run_local_watched};
-
-fn scenario(text: &str) -> Scenario {
-    parse("test.toml", text).unwrap_or_else(|errors| panic!("{}", errors.render(false)))
-}
 
 fn tubes(scenario: &mut Scenario, change: impl Fn(&mut TubeSettings)) {
     for group in &mut scenario.groups {
@@ -60,19 +55,10 @@ fn run_assuming(scenario: &Scenario) -> (Summary, bool) {
 fn echoes_mislead_nobody_who_tolerates_them() {
     let (mut kept_runs, mut broken_runs) = (0, 0);
     for seed in 1..=8 {
-        let mut scenario = library_scenario("surface-bounce");
-        scenario.seed = seed;
-        let plain = run_local(&scenario, None);
+        let at = |name: &str| Scenario { seed, ..library_scenario(name) };
+        let plain = run_local(&at("surface-bounce"), None);
         assert!(plain.containment.misled.violations > 1_000, "{seed}: {:?}", plain.containment.misled);
-        tubes(&mut scenario, |settings| {
-            settings.outliers = Some(Outliers {
-                window: WINDOW,
-                tolerated: TOLERATED,
-                margin: None,
-                inlier_probability: Some(0.8),
-            });
-        });
-        let (robust, kept) = run_assuming(&scenario);
+        let (robust, kept) = run_assuming(&at("echoes"));
         assert_eq!(robust.containment.violations, 0, "{seed}: {:?}", robust.containment.first);
         let misled = robust.containment.misled;
         if kept {
@@ -95,7 +81,7 @@ fn echoes_mislead_nobody_who_tolerates_them() {
 #[test]
 fn a_kidnapped_auv_finds_itself_again() {
     for noise in [Noise::Uniform, Noise::Adversarial] {
-        let mut scenario = scenario(include_str!("scenarios/kidnapped.toml"));
+        let mut scenario = library_scenario("kidnapped");
         scenario.noise = noise;
         let (summary, reports) = reports(&scenario, 4);
         let containment = &summary.containment;
@@ -127,7 +113,7 @@ fn a_kidnapped_auv_finds_itself_again() {
 
 #[test]
 fn a_plain_tube_never_gets_over_a_kidnapping() {
-    let mut scenario = scenario(include_str!("scenarios/kidnapped.toml"));
+    let mut scenario = library_scenario("kidnapped");
     tubes(&mut scenario, |settings| {
         settings.outliers = None;
         settings.on_empty = shoal_scenario::model::Recovery::Drop;
@@ -141,11 +127,8 @@ fn a_plain_tube_never_gets_over_a_kidnapping() {
 #[test]
 fn an_auv_that_knows_nothing_finds_where_it_is() {
     for noise in [Noise::Uniform, Noise::Adversarial] {
-        let text = include_str!("scenarios/kidnapped.toml");
-        let (text, _fault) = text.split_once("[[fault]]").unwrap();
-        let (before, after) = text.rsplit_once("box_width_m = 10").unwrap();
         for robust in [true, false] {
-            let mut scenario = scenario(&format!("{before}known = false{after}"));
+            let mut scenario = library_scenario("unknown-start");
             scenario.noise = noise;
             if !robust {
                 tubes(&mut scenario, |settings| settings.outliers = None);
