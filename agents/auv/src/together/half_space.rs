@@ -64,6 +64,11 @@ impl Frame {
         (0..4).map(|axis| (normal[axis] * self.lower[axis]).max(normal[axis] * self.upper[axis])).sum()
     }
 
+    /// Whether a plane of a ring leaves out a part of the box.
+    pub fn is_cut_by(&self, ring: &Ring, sound: &Sound) -> bool {
+        self.planes(ring, 0, sound).into_iter().flatten().any(|plane| self.most(&plane.normal) > plane.bound)
+    }
+
     /// Both planes of a ring; none when its centre is the middle of the box.
     pub fn planes(&self, ring: &Ring, index: usize, sound: &Sound) -> Option<[HalfSpace; 2]> {
         let centre_m: IntervalBox<3> = ring.emitter_m + ring.since.displacement_m;
