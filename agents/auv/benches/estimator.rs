@@ -33,7 +33,7 @@ fn main() {
     let is_asked = |name: &str| filters.iter().all(|filter| name.contains(filter.as_str()));
     let rounds = if is_bench { 20 } else { 1 };
     for (name, rings) in SETTINGS {
-        let settings = TubeSettings { rings, ..TubeSettings::forward(HORIZON_NS) };
+        let settings = TubeSettings { rings, stopping_ratio: std::env::var("SR").unwrap().parse().unwrap(), ..TubeSettings::forward(HORIZON_NS) };
         let ask = |what: &str, unit: &str, goal: &str, measure: &dyn Fn() -> f64| {
             let name = format!("{what}/{name}");
             if is_asked(&name) {

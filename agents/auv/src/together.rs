@@ -60,7 +60,7 @@ fn within_planes(rings: &[Ring], state: &State, sound: &Sound) -> Result<State, 
     let mut count = 0;
     for (index, ring) in rings.iter().enumerate().rev() {
         for plane in frame.planes(ring, index, sound).into_iter().flatten() {
-            if count < PLANES && frame.most(&plane.normal) > plane.bound {
+            if count < PLANES {
                 planes[count] = plane;
                 count += 1;
             }

@@ -146,7 +146,7 @@ impl TubeEstimator {
 
     /// The state contracted by all rings together, of which the last `fresh` are new. Contradictory, those are dropped.
     fn contracted_together(&mut self, state: &State, fresh: usize) -> Result<State, Contradiction> {
-        let rings = self.rings.as_slice();
+        let rings = self.rings.present();
         let contracted = together::contract(rings, fresh, state, &self.sound, self.stopping_ratio);
         if contracted.is_err() {
             self.rings.drop_newest(fresh);
