@@ -186,7 +186,7 @@ impl Present {
             for ring in rings {
                 state = ring.contract(&state, &self.sound).ok()?;
             }
-            state = together::contract(rings, rings.len(), &state, &self.sound, 0.001).ok()?;
+            state = together::contract(rings, &state, &self.sound, 0.001).ok()?;
             if !state.is_tighter_by(&before, 0.01) {
                 break;
             }

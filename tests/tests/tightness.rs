@@ -112,7 +112,7 @@ fn survey() {
             );
         };
         show("deaf", lives.iter().map(|l| l.deaf().tube(TubeSettings { rings: 0, ..l.settings() })).collect());
-        for rings in [0, 4, 8, 12, 16, 32] {
+        for rings in [0, 4, 6, 8, 10, 12, 16, 32] {
             for stopping_ratio in [0.05] {
                 let now = std::time::Instant::now();
                 let states = lives.iter().map(|l| l.tube(TubeSettings { rings, stopping_ratio, ..l.settings() })).collect();

@@ -20,25 +20,23 @@ const ROUNDS: usize = 4;
 /// More planes than this are not looked at together: those of the newest rings are.
 const PLANES: usize = 64;
 
-/// The states that all `rings` allow, or a box around them, when the last `fresh` of them are new. As long as none of those cuts
-/// the box, nothing is looked for: the others have been contracted together before. `stopping_ratio` is the part of its width that
-/// a side must lose in a round for another to follow.
+/// Whether a ring says anything of a state's position and clock together, once it has been heard out on its own.
+pub fn is_cut_by(state: &State, ring: &Ring, sound: &Sound) -> bool {
+    Frame::new(state).is_cut_by(ring, sound)
+}
+
+/// The states that all `rings` allow, or a box around them; `stopping_ratio` is the part of its width that a side must lose in a
+/// round for another to follow.
 ///
 /// # Errors
 /// A ping, when nothing is left with it.
 pub fn contract(
     rings: &[Ring],
-    fresh: usize,
     state: &State,
     sound: &Sound,
     stopping_ratio: f64,
 ) -> Result<State, Contradiction> {
     let mut state = *state;
-    let known = rings.len().saturating_sub(fresh);
-    let frame = Frame::new(&state);
-    if !rings.iter().skip(known).any(|ring| frame.is_cut_by(ring, sound)) {
-        return Ok(state);
-    }
     for _ in 0..ROUNDS {
         let before = state;
         state = within_planes(rings, &state, sound)?;
