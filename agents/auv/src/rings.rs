@@ -72,7 +72,7 @@ impl Ring {
     }
 }
 
-/// The last pings, the newest last, as far back as the horizon.
+/// The last pings that were kept, the newest last, as far back as the horizon.
 #[derive(Debug)]
 pub struct Rings {
     most: usize,
