@@ -1,9 +1,11 @@
 //! What the payloads that one AUV received and its odometry allow of its present state: all of it, by set inversion.
 //!
-//! The constraints are those of an online estimator that forgets nothing: what it was told at birth, every depth and every fix,
-//! carried along by odometry, and every ping as a ring around the present position. Their solution set in (x, y, z, clock offset) is
-//! searched by branch and bound for how far it reaches along each axis, with points of it as witnesses from the inside, so that
-//! its hull is known from both sides.
+//! The constraints are those of an online estimator that forgets nothing and takes its time: what it was told at birth, every depth
+//! and every fix, carried along by odometry, and every ping of its life as a ring around the present position. At each tick that
+//! brings a ping, all of them are contracted to a fixed point, and the box goes on from there: one ring after the other, each worn by
+//! the whole way since, says less than what they left together when they were new. At the end the solution set in (x, y, z, clock
+//! offset) is searched by branch and bound for how far it reaches along each axis, with points of it as witnesses from the inside,
+//! so that its hull is known from both sides.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -60,11 +62,6 @@ impl Present {
         }
     }
 
-    /// How many pings were heard.
-    pub fn pings(&self) -> usize {
-        self.rings.len()
-    }
-
     /// Goes on to the next tick.
     ///
     /// # Panics
@@ -91,6 +88,10 @@ impl Present {
             }
         }
         assert!(!self.known.is_empty(), "{:?}", sensed.stamp);
+        if sensed.events.iter().any(|event| matches!(event.sense, Sense::Heard { .. })) {
+            let rings = self.active(&self.known, &self.rings);
+            self.known = self.contract(&self.known, &rings).expect("the truth is allowed");
+        }
     }
 
     fn ring(&self, ping: &Ping, event: &Event) -> Ring {

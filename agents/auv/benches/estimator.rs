@@ -24,7 +24,7 @@ const SPEED_M_S: f64 = 1.5;
 const SOUND_M_S: f64 = 1_500.0;
 /// How the estimator may be set, and what it is called then.
 const SETTINGS: [(&str, u16); 5] =
-    [("forward", 0), ("rings/8", 8), ("rings/12", 12), ("rings/16", 16), ("rings/32", 32)];
+    [("forward", 0), ("rings/4", 4), ("rings/6", 6), ("rings/8", 8), ("rings/16", 16)];
 
 fn main() {
     // Without `--bench` this is `cargo test`, which only asks whether it runs.
@@ -33,7 +33,7 @@ fn main() {
     let is_asked = |name: &str| filters.iter().all(|filter| name.contains(filter.as_str()));
     let rounds = if is_bench { 20 } else { 1 };
     for (name, rings) in SETTINGS {
-        let settings = TubeSettings { rings, stopping_ratio: std::env::var("SR").unwrap().parse().unwrap(), ..TubeSettings::forward(HORIZON_NS) };
+        let settings = TubeSettings { rings, ..TubeSettings::forward(HORIZON_NS) };
         let ask = |what: &str, unit: &str, goal: &str, measure: &dyn Fn() -> f64| {
             let name = format!("{what}/{name}");
             if is_asked(&name) {
@@ -63,8 +63,7 @@ enum Pings {
 fn cost_us(settings: TubeSettings, rounds: usize, pings: Pings) -> f64 {
     let mut best_us = f64::INFINITY;
     // Half a horizon: rings are carried along at every step, and none may be forgotten.
-    let steps: Vec<Sensed> =
-        (STEPS + 2..STEPS + 2 + STEPS / 2).map(|step| sensed(step, pings)).collect();
+    let steps: Vec<Sensed> = (STEPS + 2..STEPS + 2 + STEPS / 2).map(|step| sensed(step, pings)).collect();
     for _ in 0..rounds {
         let mut estimator = aged(settings, Pings::OneAStep { late_ns: 0 });
         let since = Instant::now();

@@ -81,8 +81,7 @@ fn each_ring_goes_along_from_when_it_was_heard() {
     rings.carry(&metre);
     rings.push(ring(1.0));
     rings.carry(&metre);
-    let gone_m: Vec<f64> =
-        rings.present().iter().map(|ring| ring.since.displacement_m[0].mid()).collect();
+    let gone_m: Vec<f64> = rings.present().iter().map(|ring| ring.since.displacement_m[0].mid()).collect();
     assert!((gone_m[0] - 3.0).abs() < 1e-9 && (gone_m[1] - 1.0).abs() < 1e-9, "{gone_m:?}");
 }
 
