@@ -1,12 +1,14 @@
-"""Reads a record of Shoal with Python's `mcap`, every checksum verified, and prints what it found as one JSON line.
+"""Reads a record of Shoal with Python's `mcap`, every checksum verified and every JSON message held against its schema, and prints
+what it found as one JSON line.
 
-    pip install mcap && python3 read_record.py run.mcap
+    pip install mcap zstandard jsonschema && python3 read_record.py run.mcap
 """
 
 import json
 import struct
 import sys
 
+from jsonschema import Draft202012Validator
 from mcap.reader import NonSeekingReader, SeekingReader
 
 
@@ -29,6 +31,8 @@ def told(data):
             stamp, kind = take("qI")
             if kind == 4:
                 fields = bytes(take(f"{take('Q')}s"))
+            elif kind == 6:
+                fields = [take("I2d"), take("2d") if take("B") else None, take("2d")]
             else:
                 fields = take(("6d", "6d", "2d", "8d", "", "")[kind])
             events.append((stamp, kind, fields))
@@ -37,9 +41,20 @@ def told(data):
     return rows
 
 
+def closed(schema):
+    """The schema without a place for what it does not name."""
+    if isinstance(schema, list):
+        return [closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    schema = {key: closed(part) for key, part in schema.items()}
+    return {**schema, "additionalProperties": False} if "properties" in schema else schema
+
+
 def read(reader):
     """Messages of each topic, and what they sum up to."""
     topics, found = {}, {"ticks": 0, "reports": 0, "pings": 0, "told": 0, "heard_bytes": 0}
+    validators = {}
     for schema, channel, message in reader.iter_messages(log_time_order=False):
         topics[channel.topic] = topics.get(channel.topic, 0) + 1
         if channel.topic == "/born":
@@ -50,10 +65,10 @@ def read(reader):
             found["heard_bytes"] += sum(len(fields) for row in rows for _, kind, fields in row[4] if kind == 4)
             continue
         content = json.loads(message.data)
-        described = json.loads(schema.data)
-        missing = [key for key in described.get("required", []) if key not in content]
-        unknown = [key for key in content if key not in described["properties"]]
-        assert not missing and not unknown, (channel.topic, missing, unknown)
+        if channel.topic not in validators:
+            validators[channel.topic] = Draft202012Validator(closed(json.loads(schema.data)))
+        for error in validators[channel.topic].iter_errors(content):
+            raise AssertionError(f"{channel.topic} {error.json_path}: {error.message}")
         rows = channel.topic.removeprefix("/")
         if rows in ("ticks", "reports", "pings"):
             found[rows] += len(content[rows])

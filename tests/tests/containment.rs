@@ -1,7 +1,7 @@
 //! No enclosure ever loses the truth, and windows never change a run: over the library and over scenarios drawn at random.
 
 use shoal_bus::summary::{Lost, Summary};
-use shoal_scenario::model::{Noise, Scenario};
+use shoal_scenario::model::{Estimator, Noise, Scenario};
 use shoal_scenario::{library, parse};
 use shoal_tests::{Dice, library_scenario, random_scenario, random_sea_scenario, run_local};
 
@@ -86,7 +86,9 @@ fn the_library_keeps_the_truth_in_both_moods() {
             "{name} {noise:?} {seed}: {:?}",
             summary.containment.first
         );
-        assert!(summary.containment.checks >= 2 * summary.wakes, "{name}");
+        // Kalman filters promise nothing that could be checked.
+        let promises = !scenario.groups.iter().any(|group| matches!(group.estimator, Estimator::Ekf(_)));
+        assert!(!promises || summary.containment.checks >= 2 * summary.wakes, "{name}");
         assert!(pings_add_up(&summary), "{name}: {:?}", summary.pings);
     });
 }
@@ -94,7 +96,8 @@ fn the_library_keeps_the_truth_in_both_moods() {
 #[test]
 fn random_scenarios_keep_the_truth() {
     let told = std::sync::Mutex::new([0_u64; 4]);
-    side_by_side(scenarios(400), |number| {
+    let count = scenarios(400);
+    side_by_side(count, |number| {
         let (scenario, text) = random(number, 20.0);
         let summary = run_local(&scenario, None);
         let containment = &summary.containment;
@@ -111,7 +114,7 @@ fn random_scenarios_keep_the_truth() {
         "{checks} checks, {heard} pings heard, {auvs} AUVs, {contracted} swarms surer at the end than at the start"
     );
     assert!(
-        checks > 100_000 && heard > 10_000 && contracted > 20,
+        checks > 250 * count && heard > 25 * count && 25 * contracted > count,
         "the scenarios are too dull to prove anything"
     );
 }

@@ -49,13 +49,23 @@ fn a_record_holds_no_fact_of_the_machine() {
 #[test]
 fn an_outside_reader_finds_every_message() {
     let python = |arguments: &[&str]| std::process::Command::new("python3").args(arguments).output();
-    if !python(&["-c", "import mcap.reader, zstandard"]).is_ok_and(|output| output.status.success()) {
-        println!("skipped: python3 cannot import mcap and zstandard (pip install mcap zstandard)");
+    if !python(&["-c", "import mcap.reader, zstandard, jsonschema"])
+        .is_ok_and(|output| output.status.success())
+    {
+        println!(
+            "skipped: python3 cannot import mcap, zstandard and jsonschema (pip install mcap zstandard jsonschema)"
+        );
         return;
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.mcap");
-    for scenario in ["six-circles", "swarm-300 --auvs 40 --duration 6"] {
+    for scenario in [
+        "six-circles",
+        "swarm-300 --auvs 40 --duration 6",
+        "surface-bounce --duration 20",
+        "data-incest --duration 20",
+        "sweep-16 --duration 20",
+    ] {
         let summary = Command::new(&format!("run {scenario} --record")).with(&path).json();
         let script = workspace().join(SCRIPT);
         let output = python(&[&script.to_string_lossy(), &path.to_string_lossy()]).unwrap();

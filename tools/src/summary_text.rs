@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use shoal_bus::summary::{EstimatorLine, Summary, ViolationLine};
+use shoal_bus::summary::{Assumption, EstimatorLine, Kidnapped, Summary, ViolationLine};
 
 /// A dozen lines that say what a run amounts to.
 pub fn render(summary: &Summary) -> String {
@@ -53,6 +53,12 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             "                counted apart: {auvs} misled by what they heard, {} enclosures without the truth",
             grouped(misled.violations)
         )?;
+    }
+    if let Some(kidnapped) = &containment.kidnapped {
+        writeln!(text, "                counted apart: {}", of_kidnapped(kidnapped))?;
+    }
+    for assumed in &containment.assumptions {
+        writeln!(text, "                {}", of_assumption(assumed))?;
     }
     if is_comparison(&summary.estimators) {
         write_estimators(text, &summary.estimators)?;
@@ -160,6 +166,28 @@ fn write_estimators(text: &mut String, estimators: &[EstimatorLine]) -> std::fmt
         )?;
     }
     Ok(())
+}
+
+/// What became of AUVs that were carried elsewhere.
+fn of_kidnapped(kidnapped: &Kidnapped) -> String {
+    let noticed = match kidnapped.noticed_after_s {
+        Some(after_s) => {
+            format!("{} noticed it, after {after_s:.2} s at most", grouped(kidnapped.noticed.into()))
+        }
+        None => "nobody noticed".to_owned(),
+    };
+    let kidnappings = counted(kidnapped.kidnappings, "kidnapping", "kidnappings");
+    let without = grouped(kidnapped.violations);
+    format!("{kidnappings}, {noticed}; {without} enclosures without the truth until then")
+}
+
+/// What it was worth to assume so many wrong pings.
+fn of_assumption(assumed: &Assumption) -> String {
+    let Assumption { group, window, tolerated, inlier_probability, pings, holds, .. } = assumed;
+    format!(
+        "{group}: if each ping is right with probability {inlier_probability}, at most {tolerated} of {window} are wrong in all {pings} windows \
+         with {holds:.3} or more"
+    )
 }
 
 /// With two digits after the point; summaries tell what has no bound as the largest number there is.

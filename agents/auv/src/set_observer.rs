@@ -264,6 +264,7 @@ impl Estimator for SetObserver {
         let (mut contractions, mut rejected) = (0, 0);
         let begun = self.travel.now();
         let stretch = self.travel.advance(sensed, &mut emptied);
+        let is_carried_off = emptied.is_some() && self.on_empty == Recovery::Restart;
         let start = self.states.hull();
         let mut since = begun;
         let mut slice: Option<State> = None;
@@ -299,10 +300,14 @@ impl Estimator for SetObserver {
             }
         }
 
+        if is_carried_off {
+            // What the log contradicts is no bound of where the body went since the last tick, so it begins again from here.
+            self.restart(|state| Ok(*state));
+        }
         let state = self.states.hull();
+        let slice = slice.filter(|_| !is_carried_off).unwrap_or(state);
         self.odometry.append(Leg { begun, ended: sensed.stamp, state: start, stretch, way });
         let components = u16::try_from(self.states.components().len()).unwrap_or(u16::MAX);
-        let slice = slice.unwrap_or(state);
         Estimate { state, slice, emptied, contractions, rejected, components, gaussian: None }
     }
 

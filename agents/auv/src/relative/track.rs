@@ -19,13 +19,14 @@ const STOPPING_RATIO: f64 = 0.02;
 ///
 /// // Heard up to 500 m; eight sightings are remembered.
 /// let mut track = Track::new(IntervalBox::from([Interval::spanning(-500.0, 500.0); 2]), 8);
-/// // A range alone is a ring, seen twice from 80 m apart two moons, and their hull.
+/// // A range alone is a ring, seen twice from 80 m apart two moons, far from each other in one box.
 /// assert!(track.see(Sighting::new(Interval::centred(100.0, 1.0), Interval::ENTIRE)));
 /// track.carry(&IntervalBox::from([Interval::spanning(-80.0, -80.0), Interval::ZERO]));
 /// assert!(track.see(Sighting::new(Interval::centred(100.0, 1.0), Interval::ENTIRE)));
-/// let now_m = track.position_m();
-/// assert!(now_m[0].width() < 8.0 && now_m[1].width() > 180.0);
-/// assert_eq!(track.paving(2.0)?.parts(), 2);
+/// let moons = track.paving(2.0)?;
+/// assert_eq!(moons.parts(), 2);
+/// let both_m = moons.hull();
+/// assert!(both_m[0].width() < 12.0 && both_m[1].width() > 180.0);
 /// # Ok::<(), shoal_interval::paving::PavingError>(())
 /// ```
 #[derive(Clone, Debug)]

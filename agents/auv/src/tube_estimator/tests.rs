@@ -11,7 +11,15 @@ use crate::newborn::PERIOD_NS;
 /// Runs an estimator through the events of each tick, on top of log and attitude; fails where it loses the truth. The
 /// estimates are given back.
 fn enclosed(born: &Born, truth: &Truth, told: &[Vec<Event>]) -> Result<Vec<Estimate>, TestCaseError> {
-    let mut estimator = TubeEstimator::new(born);
+    enclosed_by(&mut TubeEstimator::new(born), truth, told)
+}
+
+/// The same for any estimator.
+pub(crate) fn enclosed_by(
+    estimator: &mut dyn Estimator,
+    truth: &Truth,
+    told: &[Vec<Event>],
+) -> Result<Vec<Estimate>, TestCaseError> {
     let mut estimates = Vec::new();
     for (index, events) in told.iter().enumerate() {
         let local_ns = (index as i64 + 1) * PERIOD_NS;
@@ -50,7 +58,7 @@ const BEACONS_M: [[f64; 3]; 4] =
     [[300.0, 20.0, -5.0], [-40.0, 250.0, 10.0], [-200.0, -220.0, 40.0], [15.0, -30.0, 180.0]];
 
 /// Pings of the beacons in turn, as (local time of arrival, from arrival to the moment it can be told), by tick.
-fn heard(truth: &Truth, arrivals: &[(i64, i64)], ticks: usize) -> Vec<Vec<Event>> {
+pub(crate) fn heard(truth: &Truth, arrivals: &[(i64, i64)], ticks: usize) -> Vec<Vec<Event>> {
     let mut told = vec![Vec::new(); ticks];
     for (index, &(local_ns, length_ns)) in arrivals.iter().enumerate() {
         let beacon_m = Vector3::from(BEACONS_M[index % BEACONS_M.len()]);
@@ -65,10 +73,10 @@ fn heard(truth: &Truth, arrivals: &[(i64, i64)], ticks: usize) -> Vec<Vec<Event>
     told
 }
 
-const TICKS: usize = 100;
+pub(crate) const TICKS: usize = 100;
 
 /// The truth of AUVs that live a little longer than they are looked at, for their predictions.
-fn lives() -> impl Strategy<Value = Pushes> {
+pub(crate) fn lives() -> impl Strategy<Value = Pushes> {
     pushes(TICKS + 10)
 }
 
@@ -92,7 +100,7 @@ proptest! {
 }
 
 /// An AUV that swims straight on, its errors somewhere in their bounds.
-fn steady() -> Pushes {
+pub(crate) fn steady() -> Pushes {
     let wave = |index: usize, which: usize| pxfm::f_sin((index * (which + 3)) as f64);
     let pushes = (0..2 * (TICKS + 10)).map(|index| std::array::from_fn(|which| wave(index, which)));
     pushes
