@@ -158,7 +158,8 @@ impl Present {
                 queue.push(Part { most: most(&part), state: part });
                 continue;
             }
-            for point in candidates(&part, axis, sign) {
+            for ahead in [0.99, 0.95, 0.8, 0.5, 0.0] {
+                let Some(point) = self.point(&part, rings, axis, sign * ahead) else { continue };
                 if most(&point) > reached && self.allows(&point, rings) {
                     reached = most(&point);
                     witnesses.push(point);
@@ -173,6 +174,23 @@ impl Present {
             }
         }
         (queue.peek().map_or(reached, |part| part.most).max(reached), witnesses)
+    }
+
+    /// A point of a part that may be allowed: `ahead` of the middle along an axis, as a part of the radius, then in the middle of
+    /// what that leaves, axis by axis.
+    fn point(&self, part: &State, rings: &[Ring], axis: usize, ahead: f64) -> Option<State> {
+        let mut left = *part;
+        for next in (0..4).map(|step| (axis + step) % 4) {
+            let mut sides = sides(&left);
+            let ahead = if next == axis { ahead } else { 0.0 };
+            sides[next] = point(sides[next].mid() + ahead * sides[next].radius());
+            left = state(sides);
+            for ring in rings {
+                left = ring.contract(&left, &self.sound).ok()?;
+            }
+        }
+        // Nothing is left but points, a rounding wide where they were contracted.
+        Some(state(sides(&left).map(|side| point(side.mid()))))
     }
 
     /// Whether every constraint allows a point, which `known` holds.
@@ -270,16 +288,6 @@ fn state([x, y, z, offset_s]: [Interval; 4]) -> State {
 
 fn point(at: f64) -> Interval {
     Interval::centred(at, 0.0)
-}
-
-/// The middle, and points between it and the far end along the axis.
-fn candidates(part: &State, axis: usize, sign: f64) -> impl Iterator<Item = State> {
-    let middle = sides(part);
-    [0.0, 0.5, 0.8, 0.95, 0.99].into_iter().map(move |ahead| {
-        let mut at = middle.map(|side| point(side.mid()));
-        at[axis] = point(middle[axis].mid() + sign * ahead * middle[axis].radius());
-        state(at)
-    })
 }
 
 fn halves(part: &State, axis: usize) -> [State; 2] {

@@ -162,10 +162,8 @@ fn a_swarm_knows_nearly_all_that_it_could() {
     // Neither is it because nothing could be learnt.
     let deaf: Vec<State> = lives.iter().map(|life| life.deaf().tube(life.settings())).collect();
     assert!(Beside::hulls(&deaf, &hulls).position > 1.2);
-    // A tube never knows more than what leaves room for points that everything allows: it holds them all, but for what
-    // the clock's and the log's dependence from tick to tick tells it, and the reference forgets.
     let rings = Beside::all(&online, &tubes(&lives, 0));
-    assert!(rings.position <= 1.0 && rings.clock <= 1.0);
+    assert!(rings.position < 0.97 && rings.clock <= 1.0, "{}", rings.position);
 }
 
 #[test]
