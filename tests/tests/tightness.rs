@@ -23,7 +23,7 @@ struct Life {
 fn lives(scenario: &Scenario, step: u32) -> Vec<Life> {
     let lives = RefCell::new(BTreeMap::new());
     let be_born = |born: &Born| {
-        if born.auv.0 % step == 0 {
+        if born.auv.0.is_multiple_of(step) {
             lives.borrow_mut().insert(born.auv.0, Life { born: born.clone(), sensed: Vec::new() });
         }
         Auv::new(born)
