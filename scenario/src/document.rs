@@ -7,7 +7,7 @@ use crate::body::Catalogues;
 use crate::current::fastest_current_m_s;
 use crate::diagnostics::{Findings, ScenarioErrors};
 use crate::environment::{environment, norm};
-use crate::fault::faults;
+use crate::fault::{faults, whom_and_when};
 use crate::group::{GroupRead, auvs_written, group, group_names, name_is_good};
 use crate::model::{Environment, Level, Noise, OnCrash, Scenario, SoundSpeed, WaterSabotage};
 use crate::reader::Table;
@@ -239,28 +239,8 @@ fn sabotage(table: &Table<'_>, auvs: Option<u32>, duration_ns: Option<i64>) -> O
     let shift = sabotage.table("shifted_truth", "[sabotage.shifted_truth]");
     sabotage.finish();
     let shift = shift?;
-    let auv = shift.whole("auv", None, 0, u64::from(AUVS_MAX)).and_then(|auv| u32::try_from(auv).ok());
-    let at_ns = shift.time_ns("at_s", None, 0);
-    if let (Some(auv), Some(auvs)) = (auv, auvs)
-        && auv >= auvs
-    {
-        shift.refuse(
-            "auv",
-            format!("there is no AUV {auv}"),
-            format!("the {auvs} AUVs are counted from 0"),
-            format!("write a number from 0 to {}", auvs.saturating_sub(1)),
-        );
-    }
-    if let (Some(at_ns), Some(duration_ns)) = (at_ns, duration_ns)
-        && at_ns >= duration_ns
-    {
-        shift.refuse(
-            "at_s",
-            "the truth would be shifted after the run has ended",
-            "not before `duration_s`",
-            "write an earlier time, or a longer `duration_s`",
-        );
-    }
+    let (auv, at_ns) =
+        whom_and_when(&shift, auvs, duration_ns, "the truth would be shifted after the run has ended");
     shift.finish();
     Some(Some(WaterSabotage::ShiftedTruth { auv: auv?, at_ns: at_ns? }))
 }

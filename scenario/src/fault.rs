@@ -62,9 +62,33 @@ fn kidnap(
         table.missing("kind");
     }
     let kind = table.choice("kind", KINDS, ());
+    let (auv, at_ns) =
+        whom_and_when(&table, auvs, duration_ns, "the AUV would be kidnapped after the run has ended");
+    let to_m = table.vec3("to_m", None, Rule::Finite);
+    if let (Some(to_m), Some(environment)) = (to_m, environment)
+        && !contains(&environment.area_m, to_m)
+    {
+        table.refuse(
+            "to_m",
+            "the AUV would be left outside the area, where it never looks for itself",
+            "not inside `area_m`",
+            "move it inside, or make `area_m` larger; z is up and 0 at the surface",
+        );
+    }
+    table.finish();
+    kind?;
+    Some(Fault::Kidnap { auv: auv?, at_ns: at_ns?, to_m: to_m? })
+}
+
+/// `auv` and `at_s`: something happens to one AUV, which must exist, while the run lasts; else `too_late`.
+pub(crate) fn whom_and_when(
+    table: &Table<'_>,
+    auvs: Option<u32>,
+    duration_ns: Option<i64>,
+    too_late: &str,
+) -> (Option<u32>, Option<i64>) {
     let auv = table.whole("auv", None, 0, u64::from(AUVS_MAX)).and_then(|auv| u32::try_from(auv).ok());
     let at_ns = table.time_ns("at_s", None, 0);
-    let to_m = table.vec3("to_m", None, Rule::Finite);
     if let (Some(auv), Some(auvs)) = (auv, auvs)
         && auv >= auvs
     {
@@ -80,22 +104,10 @@ fn kidnap(
     {
         table.refuse(
             "at_s",
-            "the AUV would be kidnapped after the run has ended",
+            too_late,
             "not before `duration_s`",
             "write an earlier time, or a longer `duration_s`",
         );
     }
-    if let (Some(to_m), Some(environment)) = (to_m, environment)
-        && !contains(&environment.area_m, to_m)
-    {
-        table.refuse(
-            "to_m",
-            "the AUV would be left outside the area, where it never looks for itself",
-            "not inside `area_m`",
-            "move it inside, or make `area_m` larger; z is up and 0 at the surface",
-        );
-    }
-    table.finish();
-    kind?;
-    Some(Fault::Kidnap { auv: auv?, at_ns: at_ns?, to_m: to_m? })
+    (auv, at_ns)
 }

@@ -78,7 +78,7 @@ fn one_wrong_ping_too_many_is_told_and_the_set_begins_again() {
         let settings = settings(Some(Outliers { window: 5, tolerated: 1, margin: None }), on_empty);
         let born = newborn(1e-6, &settings, true);
         let truth = Truth::new(&born, &steady());
-        let arrivals: Vec<_> = (1..40).map(|index| (index * PERIOD_NS - PERIOD_NS / 2, 0)).collect();
+        let arrivals: Vec<_> = (1..40).map(|index| (index * PERIOD_NS + PERIOD_NS / 2, 0)).collect();
         let mut told = heard(&truth, &arrivals, 50);
         for events in &mut told[30..32] {
             falsify(std::slice::from_mut(events), 1, 1, 400.0);
@@ -131,7 +131,7 @@ fn begun_again() -> (SetObserver, Estimate, Truth, i64) {
     let start_m = Truth::new(&born, &steady()).at(0).position_m;
     born.orders.area_m = std::array::from_fn(|axis| Bounds::new(start_m[axis] - 0.1, start_m[axis] + 0.1));
     let truth = Truth::new(&born, &steady());
-    let arrivals: Vec<_> = (1..40).map(|index| (index * PERIOD_NS - PERIOD_NS / 2, 0)).collect();
+    let arrivals: Vec<_> = (1..40).map(|index| (index * PERIOD_NS + PERIOD_NS / 2, 0)).collect();
     let mut told = heard(&truth, &arrivals, 50);
     for events in &mut told[30..32] {
         falsify(std::slice::from_mut(events), 1, 1, 400.0);
