@@ -290,7 +290,7 @@ fn write_estimator(text: &mut String, dice: &mut Dice, horizon_s: f64) -> Result
     }
     if dice.chance(0.5) {
         let ratio = if dice.chance(0.2) { 1.0 } else { dice.magnitude(0.0015, 1.0) };
-        write!(text, ", stopping_ratio = {ratio}, passes = {}", dice.whole(0, 4))?;
+        write!(text, ", stopping_ratio = {ratio}")?;
     }
     if dice.chance(0.4) {
         let window = dice.whole(1, 20);
