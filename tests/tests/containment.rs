@@ -188,6 +188,20 @@ fn windows_never_change_a_random_sea() {
     side_by_side(scenarios(60), |number| windows_never_change(number, random_sea(1_000_000 + number, 6.0)));
 }
 
+/// Sound that is on its way meets whoever is carried into it at that moment, before its own motion would have let it: whatever the windows.
+#[test]
+fn windows_never_change_a_kidnapping() {
+    let mut scenario = library_scenario("kidnapped");
+    scenario.duration_ns = 24_000_000_000;
+    // So slow that rings of sound lie all around, and a beacon in one out of three of them.
+    scenario.environment.sound_speed_m_s = 60.0;
+    let reference = run_local(&scenario, None);
+    assert!(reference.pings.lost.asleep > 0, "{:?}", reference.pings);
+    for window_ns in [3_456_789, 7_654_321, 10_000_000, 50_000_000] {
+        assert!(run_local(&scenario, Some(window_ns)) == reference, "{window_ns} ns");
+    }
+}
+
 /// Carries a scenario out in its own windows, the longest, odd, round and drawn ones.
 fn windows_never_change(number: u64, (scenario, text): (Scenario, String)) {
     let limits = scenario

@@ -184,7 +184,7 @@ fn among_liars(rate: f64, tolerated: u16, noise: &str, seed: u64) -> Scenario {
         r#"
 name = "liars"
 seed = {seed}
-duration_s = 60
+duration_s = 40
 noise = "{noise}"
 [environment]
 area_m = [[-500, 500], [-500, 500], [-60, 0]]
