@@ -47,7 +47,7 @@ impl Swarm {
         };
         writeln!(
             text,
-            "name = \"nightly\"\nseed = {seed}\nduration_s = {duration_s}\nnoise = \"{noise}\"\nwindow_ms = 99"
+            "name = \"nightly\"\nseed = {seed}\nduration_s = {duration_s:.3}\nnoise = \"{noise}\"\nwindow_ms = 99"
         )?;
         writeln!(
             text,
