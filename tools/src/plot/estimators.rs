@@ -92,7 +92,11 @@ impl Sums {
                 normalized_error_squared(&gaussian, &[x, y, z, offset_s]).unwrap_or(f64::INFINITY)
             }),
             square_error_m2: errors_m.iter().map(|error_m| error_m * error_m).sum(),
-            width_m: report.position_m.map(|[lower, upper]| upper.0 - lower.0).into_iter().fold(0.0, f64::max),
+            width_m: report
+                .position_m
+                .map(|[lower, upper]| upper.0 - lower.0)
+                .into_iter()
+                .fold(0.0, f64::max),
         }
     }
 
@@ -185,10 +189,8 @@ impl Plot for Estimators {
             }
             for ((_, spans), colour) in coloured() {
                 let middle_s = |span: i64| (span as f64 + 0.5) * span_s;
-                let points: Vec<[f64; 2]> = spans
-                    .iter()
-                    .filter_map(|(span, sums)| Some([middle_s(*span), value(sums)?]))
-                    .collect();
+                let points: Vec<[f64; 2]> =
+                    spans.iter().filter_map(|(span, sums)| Some([middle_s(*span), value(sums)?])).collect();
                 let finite = points.iter().map(|[_, value]| *value).filter(|value| value.is_finite());
                 greatest = finite.fold(greatest, f64::max);
                 layers.push(Layer::Line { colour, points });
@@ -209,7 +211,7 @@ impl Plot for Estimators {
         }
         legend.push(Entry::remark(format!("means over {span_s} s and a group")));
         Ok(Figure {
-            title: "How good the estimates are: is the truth inside, and who trusts himself too much".to_owned(),
+            title: "How good the estimates of each group are".to_owned(),
             subtitle: String::new(),
             panels,
             legend,
