@@ -1,19 +1,64 @@
 //! The `local` transport: no processes, the minds in one program. The reference that every other transport must equal.
 
 use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, Mind};
-use crate::message::{Born, Sensed};
+use crate::message::{Acted, Born, Sensed};
+
+/// So many minds at least are worth waking another core for.
+#[cfg(feature = "parallel")]
+const WORTH_A_CORE: usize = 8;
 
 /// All minds of a run in this program.
 pub struct Local<M, F> {
     be_born: F,
     minds: Vec<Option<M>>,
+    step: fn(&mut [Turn<'_, M>], &mut dyn FnMut()),
+}
+
+/// One mind's share of a window.
+struct Turn<'a, M> {
+    mind: &'a mut M,
+    batch: &'a Batch<Sensed>,
+    acted: Vec<Acted>,
+}
+
+impl<M: Mind> Turn<'_, M> {
+    fn take(&mut self) {
+        self.acted = self.batch.items.iter().map(|sensed| self.mind.step(sensed)).collect();
+    }
 }
 
 impl<M: Mind, F: Fn(&Born) -> M> Local<M, F> {
-    /// A fleet whose minds are made by `be_born`.
+    /// A fleet whose minds are made by `be_born` and think one after the other, in this thread.
     pub fn new(be_born: F) -> Self {
-        Self { be_born, minds: Vec::new() }
+        Self { be_born, minds: Vec::new(), step: one_by_one }
     }
+
+    /// The same on all cores. A mind knows nothing of the others and answers have their order, so nothing else changes.
+    #[cfg(feature = "parallel")]
+    pub fn on_all_cores(be_born: F) -> Self
+    where
+        M: Send,
+    {
+        Self { be_born, minds: Vec::new(), step: side_by_side }
+    }
+}
+
+fn one_by_one<M: Mind>(turns: &mut [Turn<'_, M>], meanwhile: &mut dyn FnMut()) {
+    meanwhile();
+    turns.iter_mut().for_each(Turn::take);
+}
+
+#[cfg(feature = "parallel")]
+fn side_by_side<M: Mind + Send>(turns: &mut [Turn<'_, M>], meanwhile: &mut dyn FnMut()) {
+    use rayon::prelude::*;
+
+    if turns.len() < 2 * WORTH_A_CORE {
+        return one_by_one(turns, meanwhile);
+    }
+    rayon::in_place_scope(|scope| {
+        scope.spawn(|_| turns.par_iter_mut().with_min_len(WORTH_A_CORE).for_each(Turn::take));
+        meanwhile();
+    });
 }
 
 impl<M: Mind, F: Fn(&Born) -> M> Fleet for Local<M, F> {
@@ -33,19 +78,22 @@ impl<M: Mind, F: Fn(&Born) -> M> Fleet for Local<M, F> {
         sensed: &[Batch<Sensed>],
         meanwhile: &mut dyn FnMut(),
     ) -> Result<Answers, FleetError> {
-        meanwhile();
-        let mut answers = Answers::default();
+        let mut turns = Vec::with_capacity(sensed.len());
+        // Both are in the order of the AUVs.
+        let mut minds = self.minds.iter_mut().enumerate();
         for batch in sensed {
-            let Some(mind) = self.minds.get_mut(batch.auv.0 as usize).and_then(Option::as_mut) else {
+            let mind = minds.find(|(index, _)| *index == batch.auv.0 as usize);
+            let Some((_, Some(mind))) = mind else {
                 return Err(FleetError::Failed {
                     bus: "local",
-                    cause: format!("AUV {} was never born", batch.auv),
+                    cause: format!("AUV {} was never born, or its batch is out of order", batch.auv),
                 });
             };
-            let items = batch.items.iter().map(|sensed| mind.step(sensed)).collect();
-            answers.acted.push(Batch { auv: batch.auv, items });
+            turns.push(Turn { mind, batch, acted: Vec::new() });
         }
-        Ok(answers)
+        (self.step)(&mut turns, meanwhile);
+        let acted = turns.into_iter().map(|turn| Batch { auv: turn.batch.auv, items: turn.acted }).collect();
+        Ok(Answers { acted, losses: Vec::new() })
     }
 
     fn end(&mut self) {}

@@ -213,11 +213,10 @@ pub enum Estimator {
 pub struct TubeSettings {
     /// Local nanoseconds of the past that are kept. What is told later than that is ignored, so no packet may take longer.
     pub horizon_ns: i64,
-    /// So many of the last pings are kept as rings around the present position, carried along by odometry; 0 for none.
+    /// So many pings are kept as rings around the present position, carried along by odometry: the last that told something of position
+    /// and clock together; 0 for none.
     pub rings: u16,
-    /// So often, at most, a tick's news are propagated backward and forward through the horizon; 0 for forward only.
-    pub passes: u8,
-    /// No further pass when the last one made nothing smaller by this part of its width.
+    /// The rings are contracted together once more as long as that makes a side smaller by this part of its width.
     pub stopping_ratio: f64,
     /// What may be wrong of what is heard; nothing when `None`.
     pub outliers: Option<Outliers>,
@@ -229,7 +228,7 @@ impl TubeSettings {
     /// The plainest tube: forward only, box by box, and all that is heard is believed.
     pub const fn forward(horizon_ns: i64) -> Self {
         let on_empty = Recovery::Drop;
-        Self { horizon_ns, rings: 0, passes: 0, stopping_ratio: 0.05, outliers: None, on_empty }
+        Self { horizon_ns, rings: 0, stopping_ratio: 0.05, outliers: None, on_empty }
     }
 }
 

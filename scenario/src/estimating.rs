@@ -14,13 +14,12 @@ const FUSIONS: &[(&str, Fusion)] =
 const HORIZON_DEFAULT_NS: i64 = 10_000_000_000;
 /// More rings cost more than they tell: the older ones have been worn wide by odometry.
 const RINGS_MAX: u64 = 256;
-const PASSES_MAX: u64 = 16;
 
 /// What a group that says nothing estimates with.
 const TUBE: TubeSettings = TubeSettings {
     horizon_ns: HORIZON_DEFAULT_NS,
-    rings: 0,
-    passes: 0,
+    // Measured on the library: more tell nothing that these do not, and cost more (BENCHMARKS.md).
+    rings: 6,
     stopping_ratio: 0.05,
     outliers: None,
     on_empty: Recovery::Drop,
@@ -53,7 +52,6 @@ pub(crate) fn estimator(group: &Table<'_>) -> Option<Estimator> {
 fn tube(table: &Table<'_>) -> Option<TubeSettings> {
     let horizon_ns = table.time_ns("horizon_s", Some(TUBE.horizon_ns), 1);
     let rings = table.whole("rings", Some(TUBE.rings.into()), 0, RINGS_MAX);
-    let passes = table.whole("passes", Some(TUBE.passes.into()), 0, PASSES_MAX);
     let stopping_ratio = table.number("stopping_ratio", Some(TUBE.stopping_ratio), Rule::Within(0.001, 1.0));
     let outliers = match table.get("outliers").map(toml::Spanned::get_ref) {
         None | Some(DeValue::Boolean(false)) => Some(None),
@@ -63,7 +61,6 @@ fn tube(table: &Table<'_>) -> Option<TubeSettings> {
     Some(TubeSettings {
         horizon_ns: horizon_ns?,
         rings: rings? as u16,
-        passes: passes? as u8,
         stopping_ratio: stopping_ratio?,
         outliers: outliers?,
         on_empty: on_empty?,

@@ -92,9 +92,8 @@
 //! | `reaction_s` | s | 0.1 | from a tick to when its answer takes effect, in local time |
 //! | `estimator` | | `"tube"` | `"tube"`, `"ekf"`, `"dead-reckoning"`, or a table with that `name` |
 //! | `estimator.horizon_s` | s | 10 | `"tube"`: past that is kept, in local time |
-//! | `estimator.rings` | | 0 | `"tube"`: so many of the last pings are kept as rings around the present position |
-//! | `estimator.passes` | | 0 | `"tube"`: so often, at most, news are propagated backward and forward through the horizon |
-//! | `estimator.stopping_ratio` | | 0.05 | `"tube"`: no further pass when the last one gained less than this part of a width |
+//! | `estimator.rings` | | 6 | `"tube"`: so many of the last pings that told something are kept as rings around the present position; measured: more tell nothing new on the library |
+//! | `estimator.stopping_ratio` | | 0.05 | `"tube"`: the rings are contracted together once more as long as a side loses this part of its width |
 //! | `estimator.on_empty` | | `"drop"` | `"tube"`: when nothing is left, `"drop"` the culprit, `"relax"` over all rings, or `"restart"` from the area |
 //! | `estimator.outliers` | | `false` | `"tube"`: a table for pings that may be wrong: |
 //! | `outliers.window` | | 10 | of so many pings in a row |

@@ -8,6 +8,7 @@
 
 mod executable;
 mod local;
+pub mod present;
 mod process;
 mod random_scenario;
 mod traces;

@@ -144,7 +144,7 @@ fn in_this_program(
         Some(path) => Some(Recorder::create(path, scenario, &order.text, &channel.born())?),
         None => None,
     };
-    let mut fleet = Local::new(Auv::new);
+    let mut fleet = Local::on_all_cores(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
     channel.stillborn(losses);
     let (mut tapped, trouble) = Tapped::create(run);

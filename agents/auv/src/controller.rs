@@ -25,7 +25,7 @@ pub struct Belief {
 }
 
 /// A way to steer.
-pub trait Controller {
+pub trait Controller: Send {
     /// The desired velocity over ground in m/s, and how many neighbours it heeds.
     fn steer(&mut self, sensed: &Sensed, belief: &Belief) -> Steering;
 }

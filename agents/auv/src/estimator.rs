@@ -7,7 +7,7 @@ use shoal_interval::{Interval, IntervalBox};
 use crate::state::State;
 
 /// Encloses the own state from what is sensed.
-pub trait Estimator {
+pub trait Estimator: Send {
     /// Takes in one tick. What it finds contradictory it drops, and says so.
     fn update(&mut self, sensed: &Sensed) -> Estimate;
 

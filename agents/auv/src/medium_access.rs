@@ -55,7 +55,7 @@ impl<'a> Tick<'a> {
 }
 
 /// A way to share the water with others.
-pub trait MediumAccess {
+pub trait MediumAccess: Send {
     /// Adds the pings that this tick is the last to book: all at local times in `tick.from .. tick.until`.
     fn book(&mut self, tick: &Tick<'_>, booked: &mut Vec<Booking>);
 }

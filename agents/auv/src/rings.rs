@@ -72,22 +72,25 @@ impl Ring {
     }
 }
 
-/// The last pings, the newest last, as far back as the horizon.
+/// The last pings that were kept, the newest last, as far back as the horizon.
 #[derive(Debug)]
 pub struct Rings {
     most: usize,
     horizon_s: f64,
     rings: Vec<Ring>,
+    /// What the body did that no ring was told of yet, so that a step in which nothing is heard costs the same whatever is remembered.
+    untold: Way,
 }
 
 impl Rings {
     /// None heard yet; later no more than `most`, and none that arrived more than `horizon_s` local seconds ago.
     pub fn new(most: usize, horizon_s: f64) -> Self {
-        Self { most, horizon_s, rings: Vec::with_capacity(most) }
+        Self { most, horizon_s, rings: Vec::with_capacity(most), untold: Way::none() }
     }
 
-    /// All of them, the oldest first.
-    pub fn as_slice(&self) -> &[Ring] {
+    /// All of them, the oldest first, around the present.
+    pub fn present(&mut self) -> &[Ring] {
+        self.tell();
         &self.rings
     }
 
@@ -104,12 +107,18 @@ impl Rings {
         if self.rings.len() == self.most {
             self.rings.remove(0);
         }
+        self.tell();
         self.rings.push(ring);
     }
 
     /// All go along with the body.
     pub fn carry(&mut self, way: &Way) {
-        self.rings.iter_mut().for_each(|ring| ring.carry(way));
+        self.untold = self.untold.then(way);
+    }
+
+    fn tell(&mut self) {
+        let way = std::mem::replace(&mut self.untold, Way::none());
+        self.rings.iter_mut().for_each(|ring| ring.carry(&way));
     }
 
     /// Forgets those beyond the horizon of a local time.

@@ -20,6 +20,11 @@ const ROUNDS: usize = 4;
 /// More planes than this are not looked at together: those of the newest rings are.
 const PLANES: usize = 64;
 
+/// Whether a ring says anything of a state's position and clock together, once it has been heard out on its own.
+pub fn is_cut_by(state: &State, ring: &Ring, sound: &Sound) -> bool {
+    Frame::new(state).is_cut_by(ring, sound)
+}
+
 /// The states that all `rings` allow, or a box around them; `stopping_ratio` is the part of its width that a side must lose in a
 /// round for another to follow.
 ///
@@ -53,7 +58,7 @@ fn within_planes(rings: &[Ring], state: &State, sound: &Sound) -> Result<State, 
     let mut count = 0;
     for (index, ring) in rings.iter().enumerate().rev() {
         for plane in frame.planes(ring, index, sound).into_iter().flatten() {
-            if count < PLANES && frame.most(&plane.normal) > plane.bound {
+            if count < PLANES {
                 planes[count] = plane;
                 count += 1;
             }

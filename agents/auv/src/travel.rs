@@ -146,13 +146,13 @@ pub(crate) fn velocity(heading_rad: Measured, pitch_rad: Measured, speed_m_s: Me
 }
 
 /// Exact local time of something stamped `stamp`, in seconds, when a stamp is off by at most `stamp_s` seconds.
-pub(crate) fn local_s(stamp: LocalTime, stamp_s: f64) -> Interval {
+pub fn local_s(stamp: LocalTime, stamp_s: f64) -> Interval {
     // Seconds as a double are off by at most half an ulp; one whole ulp is added.
     let seconds = stamp.as_s();
     Interval::centred(seconds, stamp_s + seconds.abs() * f64::EPSILON)
 }
 
 /// Seconds of a difference of stamps; exact below 104 days, where nanoseconds are whole doubles, but for the last bit.
-pub(crate) fn seconds(ns: i64) -> f64 {
+pub fn seconds(ns: i64) -> f64 {
     ns as f64 * 1e-9
 }

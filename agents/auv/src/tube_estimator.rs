@@ -146,7 +146,8 @@ impl TubeEstimator {
 
     /// The state contracted by all rings together, of which the last `fresh` are new. Contradictory, those are dropped.
     fn contracted_together(&mut self, state: &State, fresh: usize) -> Result<State, Contradiction> {
-        let contracted = together::contract(self.rings.as_slice(), state, &self.sound, self.stopping_ratio);
+        let rings = self.rings.present();
+        let contracted = together::contract(rings, state, &self.sound, self.stopping_ratio);
         if contracted.is_err() {
             self.rings.drop_newest(fresh);
         }
@@ -183,7 +184,8 @@ impl Estimator for TubeEstimator {
                     Ok(informed) => {
                         contractions += u16::from(informed.state.is_tighter_than(&state));
                         state = informed.state;
-                        if let Some(ring) = informed.ring {
+                        let cuts = |ring: &Ring| together::is_cut_by(&state, ring, &self.sound);
+                        if let Some(ring) = informed.ring.filter(cuts) {
                             self.rings.push(ring);
                             fresh += 1;
                         }

@@ -208,7 +208,6 @@ fn estimator(of: &model::Estimator) -> Estimator {
         model::Estimator::Tube(of) => Estimator::Tube(TubeSettings {
             horizon_ns: of.horizon_ns,
             rings: of.rings,
-            passes: of.passes,
             stopping_ratio: of.stopping_ratio,
             outliers: of.outliers.map(|of| Outliers {
                 window: of.window,

@@ -64,8 +64,13 @@ impl Frame {
         (0..4).map(|axis| (normal[axis] * self.lower[axis]).max(normal[axis] * self.upper[axis])).sum()
     }
 
-    /// Both planes of a ring; none when its centre is the middle of the box.
-    pub fn planes(&self, ring: &Ring, index: usize, sound: &Sound) -> Option<[HalfSpace; 2]> {
+    /// Whether a plane of a ring leaves out a part of the box.
+    pub fn is_cut_by(&self, ring: &Ring, sound: &Sound) -> bool {
+        self.planes(ring, 0, sound).iter().any(Option::is_some)
+    }
+
+    /// The planes of a ring that leave out a part of the box; none when its centre is the middle of the box.
+    pub fn planes(&self, ring: &Ring, index: usize, sound: &Sound) -> [Option<HalfSpace>; 2] {
         let centre_m: IntervalBox<3> = ring.emitter_m + ring.since.displacement_m;
         let centre_m: [Interval; 3] = std::array::from_fn(|axis| centre_m[axis] - self.middle[axis]);
         // From emission to reception, if the clock is off by as much as in the middle of the box.
@@ -76,7 +81,7 @@ impl Frame {
         // Also false for what is not a number.
         let is_aimed = range_m > 1e-6 && range_m < 1e12;
         if !is_aimed {
-            return None;
+            return [None; 2];
         }
         let unit = from_m.map(|side| side / range_m);
 
@@ -94,13 +99,6 @@ impl Frame {
             along[axis] = ends.map(|end| unit[axis] * end);
             magnitude += ends[0].abs().max(ends[1].abs()) + side.magnitude();
         }
-        let mut bend_m = 0.0_f64;
-        for corner in 0..8 {
-            let (x, y, z) = (corner & 1, corner >> 1 & 1, corner >> 2);
-            let length_m = (squares[0][x] + squares[1][y] + squares[2][z]).sqrt();
-            bend_m = bend_m.max(length_m - (along[0][x] + along[1][y] + along[2][z]));
-        }
-
         // A unit vector is longer than one by rounding: so is sound faster.
         let (slow, fast) = (sound.speed_m_s.lower(), sound.speed_m_s.upper() * (1.0 + 8.0 * f64::EPSILON));
         let slack_m = SLACK * (magnitude + fast * delay_s.magnitude());
@@ -110,12 +108,24 @@ impl Frame {
             bound: most + fast * delay_s.upper() + slack_m,
             ring: index,
         };
-        let far = HalfSpace {
+        let mut far = HalfSpace {
             normal: Vector4::new(-x, -y, -z, slow / SCALE_M_S),
-            bound: bend_m - least - slow * delay_s.lower() + slack_m,
+            bound: -least - slow * delay_s.lower() + slack_m,
             ring: index,
         };
-        Some([near, far])
+        let cuts = |plane: &HalfSpace| self.most(&plane.normal) > plane.bound;
+        if !cuts(&far) {
+            return [Some(near).filter(cuts), None];
+        }
+        let mut bend_m = 0.0_f64;
+        for corner in 0..8 {
+            let (x, y, z) = (corner & 1, corner >> 1 & 1, corner >> 2);
+            let length_m = (squares[0][x] + squares[1][y] + squares[2][z]).sqrt();
+            bend_m = bend_m.max(length_m - (along[0][x] + along[1][y] + along[2][z]));
+        }
+
+        far.bound += bend_m;
+        [near, far].map(|plane| Some(plane).filter(cuts))
     }
 }
 
