@@ -31,7 +31,6 @@ use crate::failure::Failure;
 #[derive(Debug, Args)]
 pub struct LocalizeArgs {
     /// The record, as `shoal run --record` leaves it
-    #[arg(conflicts_with = "dataset")]
     pub record: Option<PathBuf>,
     /// From all of the record: every ping contracts both its ends, forward and backward in time
     #[arg(long, requires = "record")]
@@ -159,9 +158,12 @@ impl FirstPose {
 /// Localizes, prints how well, and writes what was found.
 pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     match (&args.record, &args.dataset) {
-        (Some(record), _) if args.offline => offline::localize(record, args),
+        (Some(_), Some(_)) => Err(Failure::usage(
+            "both a record and a data set are given: choose `RECORD --offline` or `--dataset DIR`",
+        )),
+        (Some(record), None) if args.offline => offline::localize(record, args),
         (None, Some(folder)) => dataset::localize(folder, args),
-        (Some(_), _) => Err(Failure::usage(
+        (Some(_), None) => Err(Failure::usage(
             "say how to localize: add `--offline` for all trajectories of the record together",
         )),
         (None, None) => Err(Failure::usage(
