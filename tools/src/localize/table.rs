@@ -36,7 +36,9 @@ impl Table {
             let line = error.position().map_or_else(String::new, |at| format!(":{}", at.line()));
             let cause = match error.kind() {
                 csv::ErrorKind::Io(error) if is_missing(error) => {
-                    format!("there is no such file: a data set is a folder that has it, with the columns {wanted}")
+                    format!(
+                        "there is no such file: a data set is a folder that has it, with the columns {wanted}"
+                    )
                 }
                 csv::ErrorKind::Io(error) => error.to_string(),
                 csv::ErrorKind::Utf8 { .. } => "this is no text in UTF-8".to_owned(),
