@@ -35,7 +35,8 @@ pub struct LocalizeArgs {
     /// From all of the record: every ping contracts both its ends, forward and backward in time
     #[arg(long, requires = "record")]
     pub offline: bool,
-    /// Instead of a record: folder with beacons.csv, odom.csv, ranges.csv and, to compare with, ref_poses.csv
+    /// Instead of a record: folder with beacons.csv (id,x_m,y_m), odom.csv (from,to,dx_m,dy_m,dtheta_rad), ranges.csv
+    /// (pose,beacon,range_m,sigma_m) and, to compare with, ref_poses.csv (pose,x_m,y_m,theta_rad)
     #[arg(long, value_name = "DIR")]
     pub dataset: Option<PathBuf>,
     /// Who estimates from the data set
