@@ -65,12 +65,12 @@ pub struct Summary {
 pub struct Containment {
     /// Enclosures compared with the truth: all but those of Kalman filters, which promise nothing.
     pub checks: u64,
-    /// Those that did not hold it, though nobody had told the AUV anything false.
+    /// Those that did not hold it, though the AUV had been told no more that is false than it assumes.
     pub violations: u64,
     /// The first ten of them.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub first: Vec<ViolationLine>,
-    /// AUVs that lost the truth after they had heard something false: counted apart.
+    /// AUVs that lost the truth after they had heard more that is false than they were to expect: counted apart.
     #[serde(default)]
     pub misled: Misled,
     /// What kidnapped AUVs stated before they noticed: counted apart. Absent where the scenario kidnaps nobody.
@@ -111,10 +111,16 @@ pub struct Assumption {
     pub pings: u64,
     /// Its set then holds the truth with at least this probability, whatever happened before.
     pub holds: f64,
+    /// Beside `window_holds`: the part of all windows of the group that really kept to the assumption (to the margin, where the
+    /// number is searched for).
+    pub windows_kept_fraction: f64,
+    /// Beside `holds`: the part of all reports of the group that really held the truth.
+    pub contained_fraction: f64,
 }
 
 /// What AUVs stated that had heard something false before: a ping that came the long way round (an outlier), or one whose
-/// payload did not hold the truth. No promise covers that.
+/// payload did not hold the truth. No promise covers that. Of AUVs that assume at most q of any m pings to be wrong, only those count
+/// that had heard more.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Misled {
     /// How many AUVs.

@@ -108,6 +108,8 @@ fn example(key: &str) -> String {
         "ping_phase_s" => "0.5",
         "timestamp_error_s" => "1e-5",
         "bearing_error_rad" => "0.1",
+        "outlier_rate" => "0.05",
+        "outlier_delay_s" => "0.1",
         "frame_bytes" => "64",
         "addresses" => "16",
         "source_level_db" => "185",

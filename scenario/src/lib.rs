@@ -128,6 +128,8 @@
 //! | `ping_phase_s` | s | drawn | local time of the first ping; only with `"periodic"` |
 //! | `timestamp_error_s` | s | 1e-5 | error of an arrival's timestamp |
 //! | `bearing_error_rad` | rad | `false` | error of the direction from which a ping arrives, up to pi: an ultra-short baseline array |
+//! | `outlier_rate` | | 0 | the part of all pings heard that are stamped too late, as if an echo were the arrival; nobody is told |
+//! | `outlier_delay_s` | s | 0.1 | by so much at most, up to 10; drawn evenly for each |
 //! | `frame_bytes` | | 64 | bytes that one ping may have: [`PING_BYTES`] to [`FRAME_BYTES_MAX`] |
 //! | `addresses` | | none | so many devices can be told apart: a run with more is warned of |
 //! | `access` | | `"periodic"` | when it pings: `"periodic"`, `"aloha"`, `"slotted"`, `"csma"`, or a table with that `name` |

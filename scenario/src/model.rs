@@ -420,6 +420,8 @@ pub struct Modem {
     pub timestamp_error_s: f64,
     /// Error of the direction from which a ping arrives, in rad; `None` for a modem that measures none.
     pub bearing_error_rad: Option<f64>,
+    /// What it takes for the arrival of a ping may be something later.
+    pub outliers: FalseArrivals,
     /// Bytes one ping may have.
     pub frame_bytes: u16,
     /// What it does to sound at level `sea`; `None` for one that works at level `ideal` only.
@@ -428,6 +430,15 @@ pub struct Modem {
     pub addresses: Option<u32>,
     /// When it listens; always when `None`.
     pub duty_cycle: Option<DutyCycle>,
+}
+
+/// How often a modem stamps a ping too late, beyond its stated error: what it took for the arrival was an echo. Nobody is told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct FalseArrivals {
+    /// The part of all pings heard of which the stamp is wrong, 0 to 1.
+    pub rate: f64,
+    /// By so many seconds at most; drawn evenly for each.
+    pub delay_s: f64,
 }
 
 /// What a modem does to sound.

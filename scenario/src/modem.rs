@@ -3,7 +3,7 @@
 use toml::de::{DeTable, DeValue};
 
 use crate::medium_access::medium_access;
-use crate::model::{DutyCycle, Environment, Level, Modem, Modulation, PhysicalLayer};
+use crate::model::{DutyCycle, Environment, FalseArrivals, Level, Modem, Modulation, PhysicalLayer};
 use crate::number::Rule;
 use crate::packet::{FRAME_BYTES_MAX, PING_BYTES};
 use crate::presets::{EVOLOGICS_18_34, IDEAL, MODEMS};
@@ -33,6 +33,10 @@ const MODULATIONS: &[(&str, Modulation)] = &[("bpsk", Modulation::Bpsk), ("fsk",
 const SOURCE_LEVEL: Rule = Rule::Within(0.0, 260.0);
 /// An error of more than half a turn says nothing of the direction.
 const BEARING_ERROR: Rule = Rule::Within(0.0, std::f64::consts::PI);
+/// What comes later than this is no echo of the same ping.
+const OUTLIER_DELAY: Rule = Rule::Within(0.0, 10.0);
+/// Sound that came 150 m farther round.
+const OUTLIER_DELAY_DEFAULT_S: f64 = 0.1;
 const CAPTURE_DEFAULT_DB: f64 = 6.0;
 
 pub(crate) fn modem(group: &Table<'_>, around: &Surroundings<'_>) -> Option<Modem> {
@@ -74,6 +78,8 @@ fn in_full(table: &Table<'_>, like: &Modem, around: &Surroundings<'_>) -> Option
         Some(value) if matches!(value.get_ref(), DeValue::Boolean(false)) => Some(None),
         Some(value) => table.number_in("bearing_error_rad", value, BEARING_ERROR).map(Some),
     };
+    let outlier_rate = table.number("outlier_rate", Some(like.outliers.rate), Rule::Within(0.0, 1.0));
+    let outlier_delay_s = table.number("outlier_delay_s", Some(OUTLIER_DELAY_DEFAULT_S), OUTLIER_DELAY);
     let frame_bytes = frame_bytes(table, like);
     let addresses = match table.get("addresses") {
         None => Some(like.addresses),
@@ -97,6 +103,7 @@ fn in_full(table: &Table<'_>, like: &Modem, around: &Surroundings<'_>) -> Option
         access: access?,
         timestamp_error_s: timestamp_error_s?,
         bearing_error_rad: bearing_error_rad?,
+        outliers: FalseArrivals { rate: outlier_rate?, delay_s: outlier_delay_s? },
         frame_bytes: frame_bytes?,
         physical: physical?,
         addresses: addresses?,

@@ -158,7 +158,34 @@ fn write_scenario(
         Sound::Sea(sea) => write_sea(text, dice, sea, depth_m)?,
     }
     let most = 12 / groups;
-    (0..groups).try_for_each(|index| write_group(text, dice, &water, index, most))
+    let mut auvs = 0;
+    let mut faults = String::new();
+    for index in 0..groups {
+        let count = dice.whole(if water.groups == 1 { 2 } else { 1 }, most);
+        let may_be_kidnapped = write_group(text, dice, &water, index, count)?;
+        if may_be_kidnapped && dice.chance(0.5) {
+            let auv = auvs + dice.whole(0, count - 1);
+            write_kidnapping(&mut faults, dice, &water, auv, duration_s)?;
+        }
+        auvs += count;
+    }
+    text.push_str(&faults);
+    Ok(())
+}
+
+/// Only who begins again from the whole area, or promises nothing, gets over it.
+fn write_kidnapping(
+    text: &mut String,
+    dice: &mut Dice,
+    water: &Water,
+    auv: u64,
+    duration_s: f64,
+) -> std::fmt::Result {
+    let Water { side_m, depth_m, .. } = *water;
+    let [x, y] = [dice.between(-side_m, side_m), dice.between(-side_m, side_m)];
+    let to_m = [x, y, dice.between(-depth_m, 0.0)];
+    let at_s = dice.between(0.0, 0.9 * duration_s);
+    writeln!(text, "\n[[fault]]\nkind = \"kidnap\"\nauv = {auv}\nat_s = {at_s:.3}\nto_m = {to_m:?}")
 }
 
 /// A line for `[environment]` about how the current differs from place to place, and how fast it is anywhere, in m/s.
@@ -186,21 +213,37 @@ fn current_field(dice: &mut Dice) -> (String, f64) {
     }
 }
 
-fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, most: u64) -> std::fmt::Result {
-    let count = dice.whole(if water.groups == 1 { 2 } else { 1 }, most);
+/// Writes a group; the answer is whether its AUVs get over a kidnapping, or promise nothing.
+fn write_group(
+    text: &mut String,
+    dice: &mut Dice,
+    water: &Water,
+    index: u64,
+    count: u64,
+) -> Result<bool, std::fmt::Error> {
     writeln!(text, "\n[[group]]\nname = \"g{index}\"\ncount = {count}")?;
     let modem = Drawn::draw(dice, water)?;
     let control_period_s = dice.seconds(0.02, 0.5);
     writeln!(text, "control_period_s = {control_period_s}\nreaction_s = {}", dice.seconds(0.012, 0.5))?;
     // A packet is told at its end and belongs to its beginning, which must not be forgotten by then.
-    let horizon_s = modem.packet_s + dice.magnitude(0.05, 10.0).max(0.05);
-    write_estimator(text, dice, horizon_s)?;
+    let horizon_s = modem.packet_s + dice.magnitude(0.05, 60.0).max(0.05);
+    let may_be_kidnapped = write_estimator(text, dice, horizon_s)?;
+    let has_bearings = dice.chance(0.3);
+    if dice.chance(0.4) {
+        let measures =
+            if has_bearings { dice.one_of(&["range-and-bearing", "bearing", "range"]) } else { "range" };
+        let (exchanged, remembered) = (dice.chance(0.5), dice.magnitude(1.0, 64.0) as u64 + 1);
+        writeln!(
+            text,
+            "relative = {{ measures = \"{measures}\", exchanged = {exchanged}, remembered = {remembered} }}"
+        )?;
+    }
 
     let is_suite = dice.chance(0.2);
     if is_suite {
         writeln!(text, "sensors = \"{}\"", dice.one_of(&["nominal", "mems-ahrs", "ahrs-dvl", "fog-ins"]))?;
     }
-    let is_named_clock = dice.chance(0.2);
+    let is_named_clock = dice.chance(0.35);
     if is_named_clock {
         writeln!(text, "clock = \"{}\"", dice.one_of(&["ideal", "quartz", "tcxo", "ocxo", "csac"]))?;
     }
@@ -222,25 +265,48 @@ fn write_group(text: &mut String, dice: &mut Dice, water: &Water, index: u64, mo
     if !is_suite {
         write_sensors(text, dice, water)?;
     }
-    write_modem(text, dice, water, &modem)
+    write_modem(text, dice, water, &modem, has_bearings)?;
+    Ok(may_be_kidnapped)
 }
 
-fn write_estimator(text: &mut String, dice: &mut Dice, horizon_s: f64) -> std::fmt::Result {
-    if dice.chance(0.15) {
-        return writeln!(text, "estimator = \"{}\"", dice.one_of(&["ekf", "dead-reckoning"]));
+/// Writes how a group estimates; the answer is whether it gets over a kidnapping, or promises nothing.
+fn write_estimator(text: &mut String, dice: &mut Dice, horizon_s: f64) -> Result<bool, std::fmt::Error> {
+    match dice.whole(0, 14) {
+        0 => {
+            writeln!(text, "estimator = \"dead-reckoning\"")?;
+            return Ok(false);
+        }
+        1 => {
+            let fusion = dice.one_of(&["independent", "covariance-intersection"]);
+            let gate = if dice.chance(0.3) { "false".to_owned() } else { dice.between(1.0, 6.0).to_string() };
+            writeln!(text, "estimator = {{ name = \"ekf\", fusion = \"{fusion}\", gate_sigma = {gate} }}")?;
+            return Ok(true);
+        }
+        _ => {}
     }
     write!(text, "estimator = {{ name = \"tube\", horizon_s = {horizon_s:.3}")?;
-    if dice.chance(0.4) {
+    if dice.chance(0.6) {
         write!(text, ", rings = {}", dice.whole(0, 64))?;
+    }
+    if dice.chance(0.5) {
+        let ratio = if dice.chance(0.2) { 1.0 } else { dice.magnitude(0.0015, 1.0) };
+        write!(text, ", stopping_ratio = {ratio}")?;
     }
     if dice.chance(0.4) {
         let window = dice.whole(1, 20);
-        let tolerated = dice.whole(0, (window - 1).min(4));
-        let margin = if dice.chance(0.3) { format!(", margin = {tolerated}") } else { String::new() };
-        write!(text, ", outliers = {{ window = {window}, tolerated = {tolerated}{margin} }}")?;
+        let tolerated = dice.whole(0, (window - 1).min(6));
+        write!(text, ", outliers = {{ window = {window}, tolerated = {tolerated}")?;
+        if dice.chance(0.3) {
+            write!(text, ", margin = {}", dice.whole(0, tolerated + 1))?;
+        }
+        if dice.chance(0.3) {
+            write!(text, ", inlier_probability = {}", dice.between(0.5, 1.0))?;
+        }
+        text.push_str(" }");
     }
     let on_empty = if dice.chance(0.5) { "drop" } else { dice.one_of(&["relax", "restart"]) };
-    writeln!(text, ", on_empty = \"{on_empty}\" }}")
+    writeln!(text, ", on_empty = \"{on_empty}\" }}")?;
+    Ok(on_empty == "restart")
 }
 
 fn write_clock(text: &mut String, dice: &mut Dice) -> std::fmt::Result {

@@ -6,9 +6,10 @@ use shoal_auv::Auv;
 use shoal_auv::offline::{Booked, Reconstruction, Recorded, Trajectory};
 use shoal_bus::chronicle::{Truth, What};
 use shoal_bus::message::{Born, Bounds, Estimator, Report, box_width};
+use shoal_bus::summary::Summary;
 use shoal_channel::channel::Channel;
 use shoal_scenario::model::{Estimator as EstimatorOrders, Noise, Scenario};
-use shoal_tests::{library_scenario, run_local_watched};
+use shoal_tests::{library_scenario, random_scenario, random_sea_scenario, run_local_watched};
 
 /// What happened to one AUV at one tick: the true time and the rest of the truth, and what it believed.
 type Told = (f64, Truth, Report);
@@ -17,6 +18,7 @@ type Told = (f64, Truth, Report);
 struct Run {
     recorded: Vec<Recorded>,
     ticks: Vec<BTreeMap<u64, Told>>,
+    summary: Summary,
 }
 
 fn run(scenario: &Scenario) -> Run {
@@ -25,7 +27,7 @@ fn run(scenario: &Scenario) -> Run {
     let mut truths = vec![None; born.len()];
     let mut recorded: Vec<Recorded> =
         born.into_iter().map(|born| Recorded { born, sensed: Vec::new(), booked: Vec::new() }).collect();
-    run_local_watched(scenario, None, Auv::new, |entry| {
+    let summary = run_local_watched(scenario, None, Auv::new, |entry| {
         let auv = entry.auv.0 as usize;
         match &entry.what {
             What::Truth(truth) => truths[auv] = Some((entry.at.as_s(), *truth)),
@@ -40,7 +42,7 @@ fn run(scenario: &Scenario) -> Run {
         }
     })
     .unwrap();
-    Run { recorded, ticks }
+    Run { recorded, ticks, summary }
 }
 
 fn forward(trajectories: &mut [Trajectory], sweep: &(dyn Fn(&mut Trajectory) + Sync)) {
@@ -177,4 +179,52 @@ fn echoes_are_dropped_where_they_leave_nothing() {
     assert!(reconstruction.pings().0 > 100);
     let ticks = reconstruction.trajectories().iter().flat_map(Trajectory::ticks);
     assert!(ticks.into_iter().all(|tick| !tick.state.is_empty()));
+}
+
+/// Whatever estimators, clocks, seas and modems are drawn: where nothing false was said, nothing is dropped and the truth is in every
+/// state, and all comes to an end in any case. `SHOAL_RANDOM_SCENARIOS` sets how many are drawn.
+#[test]
+fn random_records_hold_the_truth() {
+    let count =
+        std::env::var("SHOAL_RANDOM_SCENARIOS").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
+    let (mut states, mut tied, mut honest) = (0, 0, 0);
+    for number in 0..count {
+        let draw: fn(u64, f64) -> String =
+            if number % 2 == 0 { random_scenario } else { random_sea_scenario };
+        let text = draw(3_000_000 + number, 6.0);
+        let scenario = shoal_scenario::parse("random.toml", &text).unwrap();
+        let run = run(&scenario);
+        let reconstruction = solved(&run);
+        let is_deceived = run.summary.pings.outliers > 0 || run.summary.containment.kidnapped.is_some();
+        assert!(is_deceived || reconstruction.dropped() == 0, "{} dropped\n{text}", reconstruction.dropped());
+        tied += reconstruction.pings().0;
+        honest += u32::from(!is_deceived);
+        for (auv, trajectory) in reconstruction.trajectories().iter().enumerate() {
+            let stamp_s = run.recorded[auv].born.clock.stamp_ns as f64 * 1e-9;
+            for tick in trajectory.ticks() {
+                assert!(!tick.state.is_empty());
+                let Some((at_s, truth, _)) = run.ticks[auv].get(&tick.tick).filter(|_| !is_deceived) else {
+                    continue;
+                };
+                let offset_s = at_s - tick.stamp.as_s();
+                for state in [&tick.alone, &tick.state] {
+                    states += 1;
+                    let holds = (0..3).all(|axis| state.position_m[axis].contains(truth.position_m[axis]))
+                        && state.offset_s.inflate(stamp_s).contains(offset_s);
+                    assert!(
+                        holds,
+                        "AUV {auv}, tick {}: {truth:?}, {offset_s} in {state:?}\n{text}",
+                        tick.tick
+                    );
+                }
+            }
+        }
+    }
+    println!(
+        "{states} states hold the truth, {tied} pings tied, in {honest} of {count} records nothing is false"
+    );
+    assert!(
+        states > 100 * count && tied > count as usize && 4 * u64::from(honest) > count,
+        "too dull to prove anything"
+    );
 }

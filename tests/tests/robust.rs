@@ -176,3 +176,77 @@ fn an_auv_that_knows_nothing_finds_where_it_is() {
         }
     }
 }
+
+/// Divers among beacons, that hear so many pings wrong by up to 0.2 s and tolerate so many of twenty.
+fn among_liars(rate: f64, tolerated: u16, noise: &str, seed: u64) -> Scenario {
+    let inlier_probability = 1.0 - rate;
+    let text = format!(
+        r#"
+name = "liars"
+seed = {seed}
+duration_s = 40
+noise = "{noise}"
+[environment]
+area_m = [[-500, 500], [-500, 500], [-60, 0]]
+[[group]]
+name = "beacon"
+count = 4
+modem = {{ ping_period_s = 1, range_m = 2000 }}
+[group.sensors]
+gnss = {{ depth_max_m = 5, period_s = 1, position_error_m = [0.5, 0.5, 0.5] }}
+[group.start]
+points_m = [[-400, -350, -1], [420, -380, -1], [380, 410, -1], [-390, 400, -1]]
+box_width_m = 2
+[[group]]
+name = "diver"
+count = 4
+modem = {{ ping_period_s = false, outlier_rate = {rate}, outlier_delay_s = 0.2 }}
+estimator = {{ name = "tube", outliers = {{ window = 20, tolerated = {tolerated}, inlier_probability = {inlier_probability} }}, on_empty = "relax" }}
+controller = {{ name = "reynolds", speed_m_s = 1.5 }}
+[group.start]
+region_m = [[-200, 200], [-200, 200], [-50, -10]]
+box_width_m = 10
+"#
+    );
+    shoal_scenario::parse("liars.toml", &text).unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+}
+
+/// Zero violations as long as the assumption holds, at any rate; where it breaks, what was measured stands beside the bound.
+#[test]
+fn so_many_outliers_as_are_tolerated_cost_nothing() {
+    let (mut kept_runs, mut broken_runs) = (0, 0);
+    for (rate, enough, few) in [(0.01, 3, 0), (0.05, 5, 1), (0.1, 7, 2), (0.2, 9, 4)] {
+        for (tolerated, noise, seed) in
+            [(enough, "uniform", 1), (enough, "adversarial", 2), (few, "uniform", 3), (few, "adversarial", 4)]
+        {
+            let summary = run_local(&among_liars(rate, tolerated, noise, seed), None);
+            let (containment, pings) = (&summary.containment, &summary.pings);
+            // What an AUV states within its assumption is never excused.
+            assert_eq!(containment.violations, 0, "{rate} {noise}: {:?}", containment.first);
+            let assumed = &containment.assumptions[0];
+            println!(
+                "{rate}, {tolerated} of 20 tolerated, {noise}: {} of {} pings wrong, {:.4} of windows kept (bound {:.4}), \
+                 {:.4} of reports hold the truth (bound {:.4}), {} violations apart",
+                pings.outliers,
+                pings.heard,
+                assumed.windows_kept_fraction,
+                assumed.window_holds,
+                assumed.contained_fraction,
+                assumed.holds,
+                containment.misled.violations
+            );
+            // The beacons hear each other, and nothing wrong.
+            let wrong = pings.outliers as f64 / (pings.heard as f64 * 16.0 / 28.0);
+            assert!((wrong - rate).abs() < 0.4 * rate + 0.01, "{wrong} of the pings are wrong for {rate}");
+            assert!((assumed.windows_kept_fraction - assumed.window_holds).abs() < 0.15);
+            if assumed.windows_kept_fraction == 1.0 {
+                kept_runs += 1;
+                assert_eq!((containment.misled.violations, assumed.contained_fraction), (0, 1.0));
+            } else {
+                broken_runs += 1;
+                assert!(assumed.contained_fraction >= assumed.holds);
+            }
+        }
+    }
+    assert!(kept_runs >= 4 && broken_runs >= 4, "{kept_runs} kept, {broken_runs} broken");
+}

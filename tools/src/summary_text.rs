@@ -184,9 +184,10 @@ fn of_kidnapped(kidnapped: &Kidnapped) -> String {
 /// What it was worth to assume so many wrong pings.
 fn of_assumption(assumed: &Assumption) -> String {
     let Assumption { group, window, tolerated, inlier_probability, pings, holds, .. } = assumed;
+    let Assumption { windows_kept_fraction, contained_fraction, .. } = assumed;
     format!(
         "{group}: if each ping is right with probability {inlier_probability}, at most {tolerated} of {window} are wrong in all {pings} windows \
-         with {holds:.3} or more"
+         with {holds:.3} or more; {windows_kept_fraction:.4} of all windows were so, and {contained_fraction:.4} of all reports held the truth"
     )
 }
 

@@ -106,6 +106,11 @@ impl Odometry {
         }
     }
 
+    /// Forgets all of it.
+    pub fn clear(&mut self) {
+        self.legs.clear();
+    }
+
     /// The leg that ended last.
     pub fn last(&self) -> Option<&Leg> {
         self.legs.back()

@@ -10,10 +10,11 @@
 //! |---|---|---|
 //! | drop | the culprit is ignored | all that was known before |
 //! | relax | as few remembered pings as possible are ignored; if that is no help, restart | what was known before them |
-//! | restart | all is forgotten: anywhere in the area, with the clock that dead reckoning and satellites alone leave | the area, clock and body |
+//! | restart | all is forgotten: anywhere that leads here from the area, with the clock that dead reckoning and satellites alone leave | the area, clock and body |
 //!
 //! Restart is what finds a kidnapped AUV again: seed 002, algorithm 4.2 (RTubeCSIVIA), shortens the past until something is left; here all
-//! of it goes but the culprit, which is surely younger than the kidnapping, so that no older ping can mislead by chance.
+//! of it goes: older pings, which could mislead by chance, the way behind, and the current, which was another one where the body was. The
+//! kidnapping may have been long ago, so the body may have left the area since; how far is known by the log.
 
 use std::collections::BTreeMap;
 
@@ -27,6 +28,7 @@ use shoal_interval::{Interval, IntervalBox};
 use crate::bounds::{interval, interval_box};
 use crate::estimator::{Estimate, Estimator, Prediction};
 use crate::hypotheses::Hypotheses;
+use crate::motion::Stretch;
 use crate::odometry::{Leg, Odometry, Way};
 use crate::relaxed::{Observed, Window};
 use crate::rings::Ring;
@@ -44,6 +46,9 @@ pub struct SetObserver {
     timestamp_s: f64,
     stamp_s: f64,
     area_m: IntervalBox<3>,
+    /// Where the body can be if it was left in the area at any moment until now.
+    anywhere_m: IntervalBox<3>,
+    begins_again: bool,
     on_empty: Recovery,
     window: Window,
     states: Hypotheses,
@@ -84,6 +89,7 @@ impl SetObserver {
         });
         let certain_offset_s = interval(born.clock.offset_s);
         let position_m = interval_box(&born.prior_position_m);
+        let area_m = interval_box(&born.orders.area_m);
         Self {
             travel: Travel::new(born),
             odometry: Odometry::new(settings.horizon_ns),
@@ -93,7 +99,9 @@ impl SetObserver {
             },
             timestamp_s: born.modem.timestamp_s,
             stamp_s: born.clock.stamp_ns as f64 * 1e-9,
-            area_m: interval_box(&born.orders.area_m),
+            area_m,
+            anywhere_m: area_m,
+            begins_again: false,
             on_empty: settings.on_empty,
             window: Window::new(assumed),
             states: Hypotheses::one(State { offset_s: certain_offset_s, position_m }),
@@ -112,6 +120,18 @@ impl SetObserver {
     /// Exact local time of something stamped `stamp`, in seconds.
     fn local_s(&self, stamp: LocalTime) -> Interval {
         local_s(stamp, self.stamp_s)
+    }
+
+    /// Where the body can be at the end of a stretch if it was left in the area before its end.
+    fn anywhere_since(&self, stretch: &Stretch, is_contradictory: bool) -> IntervalBox<3> {
+        let motion = self.travel.motion();
+        // The current may have been that of another place.
+        let stretch = Stretch { current_m_s: motion.any_current(), ..*stretch };
+        let within_m = match is_contradictory {
+            true => motion.anywhere_within(stretch.length_s),
+            false => motion.over(&stretch, 0.0, stretch.length_s).within_m,
+        };
+        self.anywhere_m.hull(&self.area_m) + within_m
     }
 
     fn carry(&mut self, way: &Way) {
@@ -167,6 +187,9 @@ impl SetObserver {
         by: impl Fn(&State) -> Result<State, Contradiction> + Copy,
     ) -> Told {
         let before = self.states.hull();
+        if let Ok(anywhere) = by(&self.anywhere()) {
+            self.anywhere_m = anywhere.position_m;
+        }
         let emptied = match self.states.contract(by) {
             Ok(()) => {
                 self.window.believe(by);
@@ -195,11 +218,25 @@ impl SetObserver {
         }
     }
 
-    /// Begins again from the whole area, where the measurement allows it.
+    /// Begins again from anywhere, where the measurement allows it.
     fn restart(&mut self, by: impl Fn(&State) -> Result<State, Contradiction>) {
+        self.begins_again = true;
         self.window.clear();
-        let anywhere = State { offset_s: self.certain_offset_s, position_m: self.area_m };
+        let anywhere = self.anywhere();
         self.states = Hypotheses::one(by(&anywhere).unwrap_or(anywhere));
+    }
+
+    fn anywhere(&self) -> State {
+        State { offset_s: self.certain_offset_s, position_m: self.anywhere_m }
+    }
+
+    /// At the end of a tick in which it began again: what else happened in it was carried by a log and a current that may be those of
+    /// another place.
+    fn forget_all(&mut self) {
+        self.window.clear();
+        self.odometry.clear();
+        self.travel.forget_current();
+        self.states = Hypotheses::one(self.anywhere());
     }
 
     /// Adds a ping to the window and looks up the present in it.
@@ -211,7 +248,7 @@ impl SetObserver {
             self.states = states;
         } else {
             emptied = sender.map(Culprit::Ping);
-            self.recover_from_ping(sender, ring);
+            self.recover_from_ping();
         }
         let after = self.states.hull();
         let agrees = ring.map(|ring| ring.contract(&after, &self.sound).is_ok());
@@ -223,23 +260,14 @@ impl SetObserver {
         Told { contracted: after.is_tighter_than(&before), rejected: agrees == Some(false), emptied }
     }
 
-    fn recover_from_ping(&mut self, sender: Option<AuvId>, ring: Option<Ring>) {
+    fn recover_from_ping(&mut self) {
         match self.on_empty {
             Recovery::Drop => self.window.ignore_last(),
             Recovery::Relax => match self.window.relax(&self.sound) {
                 Some(observed) => self.states = observed.states,
-                None => self.restart_at_ping(sender, ring),
+                None => self.restart(|state| Ok(*state)),
             },
-            Recovery::Restart => self.restart_at_ping(sender, ring),
-        }
-    }
-
-    fn restart_at_ping(&mut self, sender: Option<AuvId>, ring: Option<Ring>) {
-        self.restart(|state| Ok(*state));
-        self.window.append(sender, ring, self.states.clone());
-        match self.window.observe(&self.sound) {
-            Some(observed) => self.states = observed.states,
-            None => self.window.ignore_last(),
+            Recovery::Restart => self.restart(|state| Ok(*state)),
         }
     }
 
@@ -264,7 +292,9 @@ impl Estimator for SetObserver {
         let (mut contractions, mut rejected) = (0, 0);
         let begun = self.travel.now();
         let stretch = self.travel.advance(sensed, &mut emptied);
-        let is_carried_off = emptied.is_some() && self.on_empty == Recovery::Restart;
+        // What the log contradicts is no bound of where the body went since the last tick.
+        self.begins_again = emptied.is_some() && self.on_empty == Recovery::Restart;
+        self.anywhere_m = self.anywhere_since(&stretch, self.begins_again);
         let start = self.states.hull();
         let mut since = begun;
         let mut slice: Option<State> = None;
@@ -300,13 +330,15 @@ impl Estimator for SetObserver {
             }
         }
 
-        if is_carried_off {
-            // What the log contradicts is no bound of where the body went since the last tick, so it begins again from here.
-            self.restart(|state| Ok(*state));
+        let leg = Leg { begun, ended: sensed.stamp, state: start, stretch, way };
+        if self.begins_again {
+            self.forget_all();
+            slice = None;
+        } else {
+            self.odometry.append(leg);
         }
         let state = self.states.hull();
-        let slice = slice.filter(|_| !is_carried_off).unwrap_or(state);
-        self.odometry.append(Leg { begun, ended: sensed.stamp, state: start, stretch, way });
+        let slice = slice.unwrap_or(state);
         let components = u16::try_from(self.states.components().len()).unwrap_or(u16::MAX);
         Estimate { state, slice, emptied, contractions, rejected, components, gaussian: None }
     }

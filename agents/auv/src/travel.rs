@@ -55,6 +55,11 @@ impl Travel {
         stretch
     }
 
+    /// Forgets what was seen of the current, which may have been another one elsewhere.
+    pub fn forget_current(&mut self) {
+        self.current = self.current.forgotten();
+    }
+
     /// What is known of the velocity from the last tick until `length_s` local seconds later.
     pub fn stretch_ahead(&self, length_s: f64) -> Stretch {
         let current_m_s = self.current.within(self.motion.true_s(length_s));

@@ -40,6 +40,12 @@ impl Accuracy {
     }
 }
 
+/// The part of all reports of these AUVs that held the truth.
+pub fn contained_fraction(of: &[Accuracy]) -> f64 {
+    let sum = |pick: fn(&Accuracy) -> u64| of.iter().map(pick).sum::<u64>();
+    ratio(sum(|auv| auv.contained) as f64, sum(|auv| auv.reports))
+}
+
 /// One line for each group of the scenario, from its AUVs in the order of their ids.
 pub fn lines(scenario: &Scenario, of: &[Accuracy]) -> Vec<EstimatorLine> {
     let mut lines = Vec::with_capacity(scenario.groups.len());

@@ -6,13 +6,23 @@
 //! ```text
 //! alpha = (sum of C(m, i) pi^i (1 - pi)^(m - i) over i = m-q .. m)^(1/m)
 //! ```
+//!
+//! Beside either bound stands what was measured: how many windows really kept to the assumption, and how many reports held the truth.
 
 use pxfm::f_pow;
 use shoal_bus::summary::Assumption;
 use shoal_scenario::model::{Estimator, Scenario};
 
-/// What the assumptions of all groups are worth that say how likely a ping is right; `heard` has the pings that each AUV heard.
-pub fn assumptions(scenario: &Scenario, heard: &[u64]) -> Vec<Assumption> {
+use crate::accuracy::{Accuracy, contained_fraction};
+
+/// What the assumptions of all groups are worth that say how likely a ping is right; by AUV, `heard` has the pings that it heard,
+/// `windows` those that ended with one, and of these those that kept to the assumption, and `accuracy` what became of its reports.
+pub fn assumptions(
+    scenario: &Scenario,
+    heard: &[u64],
+    windows: &[(u64, u64)],
+    accuracy: &[Accuracy],
+) -> Vec<Assumption> {
     let mut first = 0;
     let mut worth = Vec::new();
     for group in &scenario.groups {
@@ -21,6 +31,9 @@ pub fn assumptions(scenario: &Scenario, heard: &[u64]) -> Vec<Assumption> {
         let Estimator::Tube(settings) = group.estimator else { continue };
         let Some(assumed) = settings.outliers else { continue };
         let Some(inlier_probability) = assumed.inlier_probability else { continue };
+        let own = windows.get(auvs.clone()).unwrap_or_default();
+        let (told, kept) = own.iter().fold((0, 0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+        let contained_fraction = contained_fraction(accuracy.get(auvs.clone()).unwrap_or_default());
         let pings = heard.get(auvs).into_iter().flatten().copied().max().unwrap_or(0);
         let window_holds = window_holds(assumed.window, assumed.tolerated, inlier_probability);
         worth.push(Assumption {
@@ -31,6 +44,8 @@ pub fn assumptions(scenario: &Scenario, heard: &[u64]) -> Vec<Assumption> {
             window_holds,
             pings,
             holds: holds_after(assumed.window, window_holds, pings),
+            windows_kept_fraction: if told == 0 { 1.0 } else { kept as f64 / told as f64 },
+            contained_fraction,
         });
     }
     worth

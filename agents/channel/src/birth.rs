@@ -10,7 +10,7 @@ use shoal_bus::message::{
     MediumAccess, Orders, Outliers, Recovery, Sabotage, TubeSettings, Wake,
 };
 use shoal_bus::time::SimTime;
-use shoal_scenario::model::{self, AuvSabotage, Group, Place, Scenario};
+use shoal_scenario::model::{self, AuvSabotage, FalseArrivals, Group, Place, Scenario};
 
 use crate::bearing::BearingArray;
 use crate::body::{Attitude, Body, Vec3};
@@ -31,6 +31,10 @@ pub struct Newborn {
     pub arrivals: Draws,
     /// Its array that measures where pings come from, if it has one.
     pub bearings: Option<BearingArray>,
+    /// How often its modem takes something else for an arrival.
+    pub false_arrivals: FalseArrivals,
+    /// When it does.
+    pub outliers: Draws,
     /// What it is told.
     pub born: Born,
 }
@@ -86,6 +90,8 @@ pub fn newborn(scenario: &Scenario, water: &Water, auv: AuvId, group_index: u16,
         bearings: group.modem.bearing_error_rad.map(|error_rad| {
             BearingArray::new(error_rad, group.sensors.heading_error_rad, (seed, auv, noise))
         }),
+        false_arrivals: group.modem.outliers,
+        outliers: Draws::new(seed, Purpose::Outlier, auv, noise),
         born,
     }
 }

@@ -238,7 +238,9 @@ impl Channel {
         let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
         let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
         let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, self.medium.in_flight())
+        let windows: Vec<_> = self.vehicles.iter().map(Vehicle::windows).collect();
+        let in_flight = self.medium.in_flight();
+        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &windows)
     }
 
     /// All pings that leave before `to`.
@@ -343,11 +345,11 @@ impl Channel {
                 Fate::Heard { range_m, .. } if receiver.was_kidnapped_between(wavefront.emitted, at) => {
                     fate = Fate::lost(Some(to), LossReason::Asleep, range_m);
                 }
-                Fate::Heard { outlier, .. } => {
-                    if outlier || wavefront.is_false {
-                        receiver.expose(at);
-                    }
-                    receiver.hear(at, stamp, from, &wavefront.frame, incidence.as_ref());
+                Fate::Heard { ref mut outlier, .. } => {
+                    let late_ns = receiver.draw_false_arrival();
+                    *outlier |= late_ns.is_some();
+                    let is_false = *outlier || wavefront.is_false;
+                    receiver.hear(at, stamp, late_ns.unwrap_or(0), &wavefront, incidence.as_ref(), is_false);
                 }
                 _ => {}
             }
@@ -463,7 +465,7 @@ fn excuse(vehicle: &Vehicle, at: SimTime, known: SimTime) -> Option<Excuse> {
     if vehicle.is_kidnapped_at(at, known) {
         return Some(Excuse::Kidnapped);
     }
-    vehicle.is_exposed_at(at).then_some(Excuse::Misled)
+    vehicle.is_exposed_at(known).then_some(Excuse::Misled)
 }
 
 /// Whether the AUV promises that what it states holds the truth: all but Kalman filters do.
@@ -501,6 +503,10 @@ fn check_ping(emitter: &Born, at: SimTime, frame: &Frame, position_m: &Vec3, vel
 /// Why no promise covers where an AUV sees a neighbour at `at`, besides what excuses all that it states: its past sightings do not know
 /// that one of both was carried elsewhere.
 fn excuse_around(auv: AuvId, around: &Around, at: SimTime, vehicles: &[Vehicle]) -> Option<Excuse> {
+    // No number of wrong pings is assumed of neighbours.
+    if vehicles.get(auv.0 as usize).is_some_and(|vehicle| vehicle.is_deceived_at(at)) {
+        return Some(Excuse::Misled);
+    }
     let both = [auv, around.auv].into_iter().filter_map(|auv| vehicles.get(auv.0 as usize));
     let mut kidnapped = both.filter(|vehicle| vehicle.was_kidnapped_between(SimTime::ZERO, at));
     kidnapped.next().map(|_| Excuse::Kidnapped)

@@ -32,6 +32,8 @@ pub enum Purpose {
     Dvl = 11,
     /// Directions from which pings arrive.
     Bearing = 12,
+    /// Arrivals that were none.
+    Outlier = 13,
 }
 
 /// One stream of draws.

@@ -16,17 +16,21 @@ pub struct Ideal {
     sound_speed_m_s: f64,
     farthest_m: f64,
     fastest_m_s: f64,
+    /// Who is carried elsewhere in this run, whom sound may meet sooner than their own motion would let it.
+    kidnapped: Vec<AuvId>,
     flights: Vec<Flight>,
     due: Vec<Flight>,
 }
 
 impl Ideal {
-    /// Still water, in which nobody is heard farther than `farthest_m` metres and no body is faster than `fastest_m_s`.
-    pub fn new(sound_speed_m_s: f64, farthest_m: f64, fastest_m_s: f64) -> Self {
+    /// Still water, in which nobody is heard farther than `farthest_m` metres and no body is faster than `fastest_m_s`, but for those
+    /// that are `kidnapped`.
+    pub fn new(sound_speed_m_s: f64, farthest_m: f64, fastest_m_s: f64, kidnapped: Vec<AuvId>) -> Self {
         Self {
             sound_speed_m_s,
             farthest_m: reach_m(farthest_m, fastest_m_s, sound_speed_m_s),
             fastest_m_s,
+            kidnapped,
             flights: Vec::new(),
             due: Vec::new(),
         }
@@ -65,6 +69,13 @@ impl Ideal {
             let distance_m = (receiver.body.position_at(wavefront.emitted) - wavefront.origin_m).norm();
             let speed_m_s = receiver.ground_speed_m_s;
             self.flights.extend(wavefront.towards(to, distance_m, speed_m_s, sound_speed_m_s));
+        }
+        if !self.kidnapped.is_empty() {
+            for flight in &mut self.flights[before..] {
+                if self.kidnapped.contains(&flight.to) {
+                    flight.earliest = wavefront.emitted;
+                }
+            }
         }
         let within = (self.flights.len() - before) as u32;
         vehicles.len() as u32 - 1 - within

@@ -20,6 +20,7 @@
 //! | `sound.rs` | wavefronts and arrivals |
 //! | `reception.rs` | which packets a modem decodes |
 //! | `assumption.rs` | what assuming few outliers is worth |
+//! | `exposure.rs` | what false pings do to a promise |
 //! | `check.rs` | enclosures against the truth |
 //! | `grid.rs` | who is near |
 //! | `ideal.rs` | sound as a sphere with a sharp edge |
@@ -45,6 +46,7 @@ pub mod clock;
 pub mod current;
 pub mod digest;
 pub mod draw;
+mod exposure;
 pub mod flock;
 pub mod grid;
 mod ideal;

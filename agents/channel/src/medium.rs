@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
-use shoal_scenario::model::{Level, Scenario};
+use shoal_scenario::model::{Fault, Level, Scenario};
 
 use crate::grid::Grid;
 use crate::ideal::Ideal;
@@ -31,6 +31,7 @@ impl Medium {
                 water.sound_speed_m_s,
                 greatest(|vehicle| vehicle.born.modem.range_m),
                 greatest(|vehicle| vehicle.ground_speed_m_s),
+                scenario.faults.iter().map(|&Fault::Kidnap { auv, .. }| AuvId(auv)).collect(),
             )),
         }
     }

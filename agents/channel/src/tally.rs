@@ -40,7 +40,7 @@ pub struct Tally {
 /// Why a violation is counted apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excuse {
-    /// The AUV has heard something false.
+    /// The AUV was told more that is false than it was to expect.
     Misled,
     /// The AUV was carried elsewhere and has not noticed yet.
     Kidnapped,
@@ -172,6 +172,7 @@ impl Tally {
         digest: String,
         flock: Flock,
         in_flight: u64,
+        windows: &[(u64, u64)],
     ) -> Summary {
         let widths = |which: usize| {
             let pick = |of: fn(&ReportWidths) -> [f64; 2]| -> Vec<f64> {
@@ -195,7 +196,7 @@ impl Tally {
             real_time_factor: None,
             wakes: self.wakes,
             digest,
-            containment: self.containment(scenario),
+            containment: self.containment(scenario, windows),
             estimators: accuracy::lines(scenario, &self.accuracy),
             position_width_m: widths(0),
             clock_width_s: widths(1),
@@ -206,7 +207,7 @@ impl Tally {
         }
     }
 
-    fn containment(&self, scenario: &Scenario) -> Containment {
+    fn containment(&self, scenario: &Scenario, windows: &[(u64, u64)]) -> Containment {
         let line = |&(at, auv, violation): &(SimTime, AuvId, Violation)| ViolationLine {
             auv: auv.0,
             name: name_of(scenario, auv),
@@ -226,7 +227,7 @@ impl Tally {
             violations: self.kidnapped.violations,
         });
         let (checks, violations) = (self.checks, self.violations);
-        let assumptions = assumptions(scenario, &self.heard);
+        let assumptions = assumptions(scenario, &self.heard, windows, &self.accuracy);
         Containment { checks, violations, first, misled, kidnapped, assumptions }
     }
 }

@@ -6,13 +6,16 @@ use shoal_bus::message::{Acted, AuvId, Born, Event, MediumAccess, PlannedPing, S
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_scenario::LISTEN_MAX_NS;
+use shoal_scenario::model::FalseArrivals;
 
 use crate::bearing::{BearingArray, Incidence};
 use crate::birth::Newborn;
 use crate::body::{Body, Pose, Vec3};
 use crate::clock::TrueClock;
 use crate::draw::Draws;
+use crate::exposure::Exposure;
 use crate::sensors::Sensors;
+use crate::sound::Wavefront;
 
 /// So many pings beyond twice its schedule may wait to be emitted; more is an AUV out of its mind.
 const PINGS_OUTSTANDING: usize = 64;
@@ -37,7 +40,9 @@ pub struct Vehicle {
     pub emitted: u32,
     /// End of its last packet, at the emitter.
     pub emits_until: SimTime,
-    exposed_since: Option<SimTime>,
+    exposure: Exposure,
+    false_arrivals: FalseArrivals,
+    outliers: Draws,
     kidnappings: Vec<Kidnapping>,
     sensors: Sensors,
     timestamps: Draws,
@@ -84,6 +89,8 @@ struct HeardPing {
     frame: Frame,
     /// Where it came from, if the AUV has an array.
     bearing: Option<Sense>,
+    /// Whether range or payload is wrong.
+    is_false: bool,
 }
 
 /// A tick that waits for its answer, with the truth to check it against.
@@ -106,7 +113,9 @@ pub struct Tick {
 impl Vehicle {
     /// A newborn in the water.
     pub fn new(newborn: Newborn, ground_speed_m_s: f64, length_m: f64, timestamp_error_s: f64) -> Self {
-        let Newborn { mut clock, body, sensors, arrivals, bearings, born } = newborn;
+        let Newborn { mut clock, body, sensors, arrivals, bearings, outliers, false_arrivals, born } =
+            newborn;
+        let exposure = Exposure::new(&born.orders.estimator);
         let next_tick_at = clock.reaches(born.wake.first_tick);
         Self {
             born,
@@ -117,7 +126,9 @@ impl Vehicle {
             length_m,
             emitted: 0,
             emits_until: SimTime::ZERO,
-            exposed_since: None,
+            exposure,
+            false_arrivals,
+            outliers,
             kidnappings: Vec::new(),
             sensors,
             timestamps: arrivals,
@@ -145,14 +156,29 @@ impl Vehicle {
         (usable_ns / (1.0 + self.born.clock.drift)).floor() as i64
     }
 
-    /// It heard something false: an outlier, or a payload that does not hold the truth.
-    pub fn expose(&mut self, since: SimTime) {
-        self.exposed_since.get_or_insert(since);
+    /// Why no promise covers what it states of itself at its tick at `tick`: it was told more that is false than it was to expect.
+    pub fn is_exposed_at(&self, tick: SimTime) -> bool {
+        self.exposure.broken_since.is_some_and(|since| since <= tick)
     }
 
-    /// Whether what it states at `at` may rest on something false that it heard.
-    pub fn is_exposed_at(&self, at: SimTime) -> bool {
-        self.exposed_since.is_some_and(|since| since <= at)
+    /// Whether it was told anything false until its tick at `tick`.
+    pub fn is_deceived_at(&self, tick: SimTime) -> bool {
+        self.exposure.deceived_since.is_some_and(|since| since <= tick)
+    }
+
+    /// Windows of pings that it was told, and how many of them kept to what it assumes.
+    pub fn windows(&self) -> (u64, u64) {
+        self.exposure.windows()
+    }
+
+    /// So much later than it arrived its modem stamps the next ping, in local nanoseconds, when it takes something else for it.
+    pub fn draw_false_arrival(&mut self) -> Option<i64> {
+        let FalseArrivals { rate, delay_s } = self.false_arrivals;
+        if rate <= 0.0 {
+            return None;
+        }
+        let (is_false, delay_s) = (self.outliers.unit() < rate, self.outliers.between(0.0, delay_s));
+        is_false.then_some((delay_s * 1e9) as i64)
     }
 
     /// Carries its body to `to_m` at `at`; its mind is not told.
@@ -189,20 +215,23 @@ impl Vehicle {
         self.bearings.is_some()
     }
 
-    /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then.
+    /// Takes a ping that was decoded at true time `at`, its modem having read the clock at `stamp`, or just then, and so many
+    /// nanoseconds too late.
     pub fn hear(
         &mut self,
         at: SimTime,
         stamp: Option<LocalTime>,
-        from: AuvId,
-        frame: &Frame,
+        late_ns: i64,
+        wavefront: &Wavefront,
         incidence: Option<&Incidence>,
+        is_false: bool,
     ) {
+        let Wavefront { from, frame, .. } = *wavefront;
         let error_ns = (self.timestamps.error(self.timestamp_error_s) * 1e9) as i64;
-        let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns;
+        let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns + late_ns;
         let bearing =
             self.bearings.as_mut().zip(incidence).map(|(array, incidence)| array.sense(from, incidence));
-        self.heard.push(HeardPing { stamp, at, from, frame: *frame, bearing });
+        self.heard.push(HeardPing { stamp, at, from, frame, bearing, is_false });
     }
 
     /// Its modem held back, at true time `at`, the ping that was booked for `stamp`.
@@ -284,9 +313,10 @@ impl Vehicle {
     fn hand_over_heard(&mut self, stamp: LocalTime, at: SimTime, events: &mut Vec<Event>) {
         self.heard.sort_by_key(|ping| (ping.stamp, ping.from, ping.at));
         let ready = self.heard.extract_if(.., |ping| ping.stamp <= stamp && ping.at <= at);
-        for HeardPing { stamp, frame, bearing, .. } in ready {
-            events.push(Event { stamp, sense: Sense::Heard { frame } });
-            events.extend(bearing.map(|sense| Event { stamp, sense }));
+        for HeardPing { stamp: heard, frame, bearing, is_false, .. } in ready {
+            self.exposure.told(is_false, at);
+            events.push(Event { stamp: heard, sense: Sense::Heard { frame } });
+            events.extend(bearing.map(|sense| Event { stamp: heard, sense }));
         }
     }
 

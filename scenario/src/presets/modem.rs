@@ -9,7 +9,7 @@
 //! have one thing in common: noise alone would let nearly all of them be heard much farther than their makers promise. In
 //! water it is echoes, motion and the vehicle's own noise that end the range, and a promise has to hold on a bad day.
 
-use crate::model::{MediumAccess, Modem, Modulation, PhysicalLayer};
+use crate::model::{FalseArrivals, MediumAccess, Modem, Modulation, PhysicalLayer};
 
 /// Modem of a group that does not say its modem.
 pub const MODEM_DEFAULT: &str = "ideal";
@@ -35,6 +35,7 @@ pub const IDEAL: Modem = Modem {
     access: every(1),
     timestamp_error_s: 1e-5,
     bearing_error_rad: None,
+    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
     frame_bytes: 64,
     physical: None,
     addresses: None,
@@ -69,6 +70,7 @@ pub const MICROMODEM_FSK: Modem = Modem {
     access: every(10),
     timestamp_error_s: 1.25e-4, // ICRA 2007, unchecked
     bearing_error_rad: None,
+    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
     frame_bytes: 32, // maker: one frame of 32 bytes
     physical: Some(PhysicalLayer {
         source_level_db: 185.0, // ours: 50 W (maker) at 50 %, to all sides: 170.8 + 10 lg 25 = 184.8
@@ -111,6 +113,7 @@ pub const MICROMODEM_PSK: Modem = Modem {
     access: every(5),
     timestamp_error_s: 1.25e-4, // ICRA 2007, unchecked
     bearing_error_rad: None,
+    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
     frame_bytes: 64, // maker
     physical: Some(PhysicalLayer {
         source_level_db: 185.0, // ours, as for FSK
@@ -154,6 +157,7 @@ pub const EVOLOGICS_18_34: Modem = Modem {
     access: every(2),
     timestamp_error_s: 1e-5, // ours: the maker states ranges to 0.01 m, which is 7 µs
     bearing_error_rad: None,
+    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
     frame_bytes: 64, // maker, unchecked: instant messages
     physical: Some(PhysicalLayer {
         source_level_db: 184.0, // ours: 35 W (maker) at 30 %, into a half-sphere: 170.8 + 10 lg 10.5 + 3 = 184.0
@@ -197,6 +201,7 @@ pub const SEATRAC: Modem = Modem {
     access: every(5),
     timestamp_error_s: 3.4e-5, // maker, unchecked: ranges to ±0.05 m, which is 33 µs
     bearing_error_rad: None,
+    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
     frame_bytes: 31, // maker
     physical: Some(PhysicalLayer {
         source_level_db: 176.0, // maker, unchecked
@@ -240,6 +245,7 @@ pub const POPOTO: Modem = Modem {
     access: every(2),
     timestamp_error_s: 1e-4, // ours: one sample of its baseband of 10,240 samples/s
     bearing_error_rad: None,
+    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
     frame_bytes: 64, // ours: its packets are longer, the bus carries no more
     physical: Some(PhysicalLayer {
         source_level_db: 180.0, // ours: 20 W (maker) at 40 %, to all sides: 170.8 + 10 lg 8 = 179.8

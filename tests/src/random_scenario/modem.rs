@@ -34,8 +34,16 @@ pub(super) fn write_modem(
     dice: &mut Dice,
     water: &Water,
     drawn: &Drawn,
+    has_bearings: bool,
 ) -> std::fmt::Result {
     writeln!(text, "[group.modem]\n{}timestamp_error_s = {}", drawn.lines, dice.error(1e-3))?;
+    if has_bearings {
+        writeln!(text, "bearing_error_rad = {}", dice.error(3.1))?;
+    }
+    if dice.chance(0.25) {
+        let (rate, delay_s) = (dice.magnitude(0.01, 0.4), dice.magnitude(1e-4, 2.0));
+        writeln!(text, "outlier_rate = {rate}\noutlier_delay_s = {delay_s}")?;
+    }
     write_access(text, dice, water, drawn.packet_s)?;
     if drawn.packet_s > 0.0 && dice.chance(0.25) {
         let awake_s = drawn.packet_s * dice.between(1.0, 8.0) + 0.001;
