@@ -48,6 +48,7 @@ broken! {
     too_many: "too-many",
     unknown_names: "unknown-names",
     not_nanoseconds: "not-nanoseconds",
+    estimator_impossible: "estimator-impossible",
     fault_impossible: "fault-impossible",
     start_unknown: "start-unknown",
     sabotage_outside: "sabotage-outside",

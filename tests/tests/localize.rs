@@ -57,3 +57,36 @@ fn a_record_becomes_trajectories_and_a_figure() {
         );
     }
 }
+
+#[test]
+fn who_was_kidnapped_is_counted_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = folder.path().join("run.mcap");
+    Command::new("run kidnapped --bus local --quiet --record").with(&record).finish().succeeded();
+    let text = Command::new("localize --offline").with(&record).finish().succeeded().stdout;
+    assert!(text.contains("counted apart: diver-0 lost the truth at 400 ticks"), "{text}");
+    assert!(!text.contains("violated"), "{text}");
+}
+
+#[test]
+fn misuse_is_refused_with_a_way_out() {
+    let refused = |arguments: &str, code: i32, words: &str| {
+        let finished = Command::new(arguments).finish();
+        assert!(finished.code() == Some(code) && finished.stderr.contains(words), "{finished:?}");
+        assert_eq!(finished.stdout, "");
+    };
+    refused("localize", 2, "`RECORD --offline`, or `--dataset DIR`");
+    refused("localize run.mcap", 2, "add `--offline`");
+    refused("localize run.mcap --dataset folder", 2, "both a record and a data set");
+    refused("localize run.mcap --offline --gate 3", 2, "--dataset <DIR>");
+    refused("localize run.mcap --offline --estimator ekf", 2, "--dataset <DIR>");
+    refused("localize --dataset folder --offline", 2, "<RECORD>");
+    refused("localize nowhere.mcap --offline", 1, "nowhere.mcap: ");
+    refused(
+        "localize --dataset nowhere",
+        1,
+        "beacons.csv: there is no such file: a data set is a folder that has it",
+    );
+    refused("localize --dataset nowhere --estimator kalman", 2, "tube, ekf, dead-reckoning");
+    refused("localize --dataset nowhere --start here", 2, "`499.2,334,2.34`");
+}

@@ -8,7 +8,7 @@ fn a_record_becomes_figures() {
     let [record, figure, cut] = ["run.mcap", "figure.svg", "cut.mcap"].map(|name| folder.path().join(name));
     let summary =
         Command::new("run --bus local").with(scenario_file("shadow")).and("--record").with(&record).json();
-    for kind in ["losses", "ranges", "reach", "rays", "sinr"] {
+    for kind in ["losses", "ranges", "reach", "rays", "sinr", "estimators"] {
         Command::new("plot").with(&record).and(kind).and("-o").with(&figure).finish().succeeded();
         let svg = std::fs::read_to_string(&figure).unwrap();
         assert!(svg.starts_with("<svg") && svg.contains("shadow, seed 3, 30 AUVs"), "{kind}: {svg}");
@@ -29,6 +29,21 @@ fn a_record_becomes_figures() {
     let finished = Command::new("plot").with(&cut).and("reach").finish();
     assert_eq!(finished.status.code(), Some(3), "{finished:?}");
     assert!(finished.stdout.starts_with("<svg") && finished.stderr.contains("ends before the run does"));
+}
+
+#[test]
+fn estimators_are_drawn_beside_each_other_with_the_numbers_of_the_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = folder.path().join("run.mcap");
+    let summary = Command::new("run data-incest --duration 60 --bus local --record").with(&record).json();
+    let svg = Command::new("plot").with(&record).and("estimators").finish().succeeded().stdout;
+    for line in summary["estimators"].as_array().unwrap() {
+        let inside = 100.0 * line["contained_fraction"].as_f64().unwrap();
+        let nees = line["nees_mean"].as_f64().map_or_else(String::new, |nees| format!(", NEES {nees:.1}"));
+        let words = format!("{}: {inside:.2} %{nees}<", line["group"].as_str().unwrap());
+        assert!(svg.contains(&words), "{words}");
+    }
+    assert!(svg.contains("truth inside (%)") && svg.contains("width of the box, mean (m)"));
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn an_outside_reader_finds_every_message() {
         "six-circles",
         "swarm-300 --auvs 40 --duration 6",
         "surface-bounce --duration 20",
-        "data-incest --duration 20",
+        "data-incest --duration 6",
         "sweep-16 --duration 20",
     ] {
         let summary = Command::new(&format!("run {scenario} --record")).with(&path).json();

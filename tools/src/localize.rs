@@ -31,12 +31,12 @@ use crate::failure::Failure;
 #[derive(Debug, Args)]
 pub struct LocalizeArgs {
     /// The record, as `shoal run --record` leaves it
-    #[arg(conflicts_with = "dataset")]
     pub record: Option<PathBuf>,
     /// From all of the record: every ping contracts both its ends, forward and backward in time
     #[arg(long, requires = "record")]
     pub offline: bool,
-    /// Instead of a record: folder with beacons.csv, odom.csv, ranges.csv and, to compare with, ref_poses.csv
+    /// Instead of a record: folder with beacons.csv (id,x_m,y_m), odom.csv (from,to,dx_m,dy_m,dtheta_rad), ranges.csv
+    /// (pose,beacon,range_m,sigma_m) and, to compare with, ref_poses.csv (pose,x_m,y_m,theta_rad)
     #[arg(long, value_name = "DIR")]
     pub dataset: Option<PathBuf>,
     /// Who estimates from the data set
@@ -159,9 +159,12 @@ impl FirstPose {
 /// Localizes, prints how well, and writes what was found.
 pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     match (&args.record, &args.dataset) {
-        (Some(record), _) if args.offline => offline::localize(record, args),
+        (Some(_), Some(_)) => Err(Failure::usage(
+            "both a record and a data set are given: choose `RECORD --offline` or `--dataset DIR`",
+        )),
+        (Some(record), None) if args.offline => offline::localize(record, args),
         (None, Some(folder)) => dataset::localize(folder, args),
-        (Some(_), _) => Err(Failure::usage(
+        (Some(_), None) => Err(Failure::usage(
             "say how to localize: add `--offline` for all trajectories of the record together",
         )),
         (None, None) => Err(Failure::usage(

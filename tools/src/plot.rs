@@ -7,12 +7,14 @@
 //! | `reach.rs` | where pings are heard, over range and depth |
 //! | `rays.rs` | which way sound goes in the run's water |
 //! | `sinr.rs` | how far a packet stands out of the noise, over range |
+//! | `estimators.rs` | how good the estimates of each group are, over time |
 //! | `tubes.rs` | what is known of one AUV: without pings, online, offline |
 //!
 //! Each is a [`Plot`]: it takes the rows of the record one by one and ends as a figure. What it keeps does not grow with the
 //! record, but for `tubes`, which keeps what is known of its AUV at every tick.
 
 mod depths;
+mod estimators;
 mod fate;
 mod losses;
 mod ranges;
@@ -49,6 +51,8 @@ pub enum Kind {
     Rays,
     /// Signal over noise and interference, over range
     Sinr,
+    /// How often the truth is inside what each group believes, NEES of Kalman filters, error and width, over time
+    Estimators,
     /// Clock and x of one AUV without pings, online and offline, with the truth inside; for what `localize --offline` writes
     Tubes,
 }
@@ -102,6 +106,7 @@ fn plot_of(args: &PlotArgs) -> Box<dyn Plot> {
         Kind::Reach => Box::<reach::Reach>::default(),
         Kind::Rays => Box::new(rays::Rays::new(args.depth_m, args.range_m)),
         Kind::Sinr => Box::<sinr::Sinr>::default(),
+        Kind::Estimators => Box::<estimators::Estimators>::default(),
         Kind::Tubes => Box::new(tubes::Tubes::new(args.auv.unwrap_or(0))),
     }
 }

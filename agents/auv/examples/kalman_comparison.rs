@@ -37,6 +37,8 @@ const OUTLIER_SIGMA: f64 = 2.0;
 const STATE_NOISE_SIGMA: f64 = 5.0;
 const WINDOW: usize = 50;
 const TOLERATED: usize = 10;
+/// How far from the truth the figures reach.
+const SHOWN_M: f64 = 10.0;
 
 struct Scenario {
     name: &'static str,
@@ -172,21 +174,26 @@ impl Run {
         run
     }
 
+    /// What is known of x1, less the truth, over time: an estimator holds the truth where it covers zero.
     fn draw(&self, scenario: &Scenario) -> Result<Figure, Box<dyn Error>> {
-        let some = |index: &usize| index.is_multiple_of(40);
-        let picked: Vec<usize> = (0..STEPS).filter(some).collect();
-        let sets: Vec<_> = picked.iter().map(|&index| self.sets[index]).collect();
-        let gaussians: Vec<_> = picked.iter().map(|&index| three_sigma(&self.kalman[index])).collect();
-        let shown =
-            self.truth_m.iter().fold(IntervalBox::EMPTY, |shown, at| shown | IntervalBox::centred(at, 3.0));
-        let shown = shown | IntervalBox::centred(&Vector2::from(MARK_M), 1.0);
-        Ok(Figure::new(shown)?
-            .title(&format!("One mark: {}", scenario.name))
-            .boxes(&sets, Class::Outside)
-            .boxes(&gaussians, Class::Boundary)
-            .curve(&self.truth_m)
-            .point(Vector2::from(MARK_M), "mark")
-            .axes("x1 (m)", "x2 (m)")
+        let over = |index: usize, side: Interval| -> Result<IntervalBox<2>, Box<dyn Error>> {
+            let time_s = Interval::new(index as f64 * STEP_S, (index + 1) as f64 * STEP_S)?;
+            Ok(IntervalBox::from([time_s, side - self.truth_m[index][0]]))
+        };
+        let (mut sets, mut gaussians) = (Vec::new(), Vec::new());
+        for index in 0..STEPS {
+            sets.push(over(index, self.sets[index][0])?);
+            gaussians.push(over(index, three_sigma(&self.kalman[index])[0])?);
+        }
+        let end_s = STEPS as f64 * STEP_S;
+        let errors_m = Interval::new(-SHOWN_M, SHOWN_M)?;
+        Ok(Figure::new(IntervalBox::from([Interval::new(0.0, end_s)?, errors_m]))?
+            .stretched_to(800, 400)
+            .title(&format!("One mark, {}", scenario.name))
+            .union(&sets, Class::Outside)
+            .union(&gaussians, Class::Boundary)
+            .curve(&[Vector2::new(0.0, 0.0), Vector2::new(end_s, 0.0)])
+            .axes("time (s)", "x1 less the truth (m)")
             .legend(Class::Outside, "set observer")
             .legend(Class::Boundary, "EKF, 3 sigma")
             .legend(Class::Curve, "truth"))

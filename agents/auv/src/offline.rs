@@ -12,6 +12,9 @@
 //!
 //! A ping that leaves nothing is dropped, as the online estimator does; so is the last one that told something before a chain
 //! breaks. What it contracted by then has gone everywhere, so all is begun again without it.
+//!
+//! Each ping contracts boxes on its own. What several say together ([`together`](crate::together)) is not looked at, so an AUV that keeps rings
+//! may have known itself better at some moment online.
 
 mod exchange;
 mod trajectory;

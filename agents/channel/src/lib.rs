@@ -33,7 +33,7 @@
 //! | `accuracy.rs` | how good estimates are |
 //! | `tally.rs` | what it all amounts to |
 
-mod accuracy;
+pub mod accuracy;
 pub mod acoustics;
 mod assumption;
 pub mod bearing;

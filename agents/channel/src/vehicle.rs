@@ -178,7 +178,7 @@ impl Vehicle {
             return None;
         }
         let (is_false, delay_s) = (self.outliers.unit() < rate, self.outliers.between(0.0, delay_s));
-        is_false.then(|| (delay_s * 1e9) as i64)
+        is_false.then_some((delay_s * 1e9) as i64)
     }
 
     /// Carries its body to `to_m` at `at`; its mind is not told.

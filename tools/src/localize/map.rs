@@ -78,10 +78,12 @@ fn over_poses(dataset: &Dataset, track: &Track) -> Panel {
         values.into_iter().enumerate().map(|(pose, value)| [pose as f64, value]).collect()
     };
     let widths: Vec<f64> = track.poses.iter().map(|pose| pose.position_m.width()).collect();
-    let most_m = widths.iter().copied().fold(0.0, f64::max);
+    let mut most_m = widths.iter().copied().fold(0.0, f64::max);
     let mut layers = vec![Layer::Line { colour: ENCLOSURE, points: over(widths) }];
     if let Some(reference) = &dataset.reference {
-        layers.push(Layer::Line { colour: ESTIMATE, points: over(errors_m(track, reference)) });
+        let errors_m = errors_m(track, reference);
+        most_m = errors_m.iter().copied().fold(most_m, f64::max);
+        layers.push(Layer::Line { colour: ESTIMATE, points: over(errors_m) });
     }
     let rejected = track.rejected.iter().map(|&index| [dataset.mission.ranges()[index].pose as f64, 0.0]);
     layers.push(Layer::Marks { mark: REJECTED, points: rejected.collect() });

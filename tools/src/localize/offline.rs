@@ -52,7 +52,7 @@ pub fn localize(record: &Path, args: &LocalizeArgs) -> Result<Exit, Failure> {
     };
     // Whoever closed our output does not want the outcome; the exit code still tells.
     let _closed = std::io::stdout().lock().write_all(text.as_bytes());
-    if outcome.all.contained < outcome.poses {
+    if !outcome.keeps_promises() {
         return Ok(Exit::Violated);
     }
     if let Ending::Truncated { .. } = told.ending {

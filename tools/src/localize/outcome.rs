@@ -77,6 +77,10 @@ pub struct Line {
     pub contained: usize,
     /// How many of its poses the AUV's own reports held.
     pub contained_online: usize,
+    /// When nothing was left of an AUV's own enclosure for the first time, in seconds of true time: its log, or what it heard, broke the
+    /// bounds, and offline does not promise anything of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emptied_s: Option<f64>,
     pub position_width_m: MedianAndEnd,
     pub clock_width_s: MedianAndEnd,
 }
@@ -106,6 +110,10 @@ impl Line {
                 .filter(|pose| pose.alone.holds(&pose.truth) && pose.offline.holds(&pose.truth))
                 .count(),
             contained_online: poses().filter(|pose| held(pose.truth.online, &pose.truth)).count(),
+            emptied_s: poses()
+                .filter(|pose| pose.truth.emptied)
+                .map(|pose| pose.truth.at.as_s())
+                .min_by(f64::total_cmp),
             position_width_m: over(0),
             clock_width_s: over(1),
         }
@@ -175,6 +183,11 @@ pub fn centre_rms_m(poses: &[Vec<Pose>]) -> Option<f64> {
 }
 
 impl Outcome {
+    /// Whether all hold the truth of whom it is promised: not of those who found themselves that something breaks the bounds.
+    pub fn keeps_promises(&self) -> bool {
+        self.each.iter().all(|line| line.contained == line.poses || line.emptied_s.is_some())
+    }
+
     /// The table for people.
     pub fn text(&self) -> String {
         let mut text = String::new();
@@ -238,6 +251,17 @@ impl Outcome {
             grouped(self.poses as u64),
             held(self.all.contained_online)
         );
+        for line in self.each.iter().filter(|line| line.contained < line.poses) {
+            let (name, lost) = (&line.name, grouped((line.poses - line.contained) as u64));
+            let _ = match line.emptied_s {
+                Some(at_s) => writeln!(
+                    text,
+                    "counted apart: {name} lost the truth at {lost} ticks: something broke its bounds, for its own enclosure emptied at \
+                     {at_s:.2} s, and offline believes its log all the same"
+                ),
+                None => writeln!(text, "violated: {name} lost the truth at {lost} ticks"),
+            };
+        }
         text
     }
 }

@@ -30,6 +30,8 @@ pub struct ToldTick {
     pub position_m: [f64; 3],
     /// Absent where the record was cut in between.
     pub online: Option<Enclosure>,
+    /// Whether nothing was left of the AUV's own enclosure.
+    pub emptied: bool,
 }
 
 /// Reads a record. A sentence says why it is of no use.
@@ -56,6 +58,7 @@ pub fn read(source: impl Read + Seek) -> Result<Told, String> {
             // The truth at a tick comes before what was answered, and both in the order of ticks.
             if let Some(told) = of(&mut ticks, row.auv).and_then(|ticks| at_tick(ticks, row.tick)) {
                 told.online = Some(Enclosure::of(&row.position_m, &row.clock_offset_s));
+                told.emptied = row.emptied.is_some();
             }
         }
         Row::Sensed { auv, sensed, .. } => {
@@ -92,6 +95,7 @@ fn tick(row: &TruthRow) -> ToldTick {
         local: row.local_ns,
         position_m: row.position_m.map(|real| real.0),
         online: None,
+        emptied: false,
     }
 }
 

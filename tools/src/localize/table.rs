@@ -35,6 +35,11 @@ impl Table {
         let unreadable = |error: csv::Error| {
             let line = error.position().map_or_else(String::new, |at| format!(":{}", at.line()));
             let cause = match error.kind() {
+                csv::ErrorKind::Io(error) if is_missing(error) => {
+                    format!(
+                        "there is no such file: a data set is a folder that has it, with the columns {wanted}"
+                    )
+                }
                 csv::ErrorKind::Io(error) => error.to_string(),
                 csv::ErrorKind::Utf8 { .. } => "this is no text in UTF-8".to_owned(),
                 csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
@@ -94,6 +99,10 @@ impl Table {
     pub fn text<'a>(&self, row: &'a Row, column: usize) -> &'a str {
         &row.cells[column].text
     }
+}
+
+fn is_missing(error: &std::io::Error) -> bool {
+    matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
 fn cell(record: &StringRecord, (column, place): (&'static str, usize)) -> Cell {

@@ -113,6 +113,16 @@ fn an_unknown_start_and_no_reference() {
 }
 
 #[test]
+fn a_start_that_is_wrong_is_told_and_leaves_numbers() {
+    let folder = synthetic();
+    let wrong = localized(folder.path(), "--start 300,-200,1 --range-m 3");
+    for report in [wrong.online.as_deref().unwrap(), &wrong] {
+        assert!(report.emptied > 0 && report.contained_fraction.unwrap() < 1.0, "{report:?}");
+        assert!(report.width_max_m.is_finite() && report.centre_rms_m.unwrap().is_finite(), "{report:?}");
+    }
+}
+
+#[test]
 fn the_figure_and_the_json() {
     let folder = synthetic();
     let args = args(folder.path(), "--range-m 3");

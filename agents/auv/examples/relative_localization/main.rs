@@ -152,21 +152,33 @@ fn draw_known(shown: &Shown, followers: &Followers) -> Result<Figure, Box<dyn Er
     Ok(figure)
 }
 
-/// Median widths over time of one kind of measurement.
+/// Median widths over time of one kind of measurement, each way in a colour of its own.
 fn draw_widths(sweep: &Sweep, measures: Measures) -> Result<Figure, Box<dyn Error>> {
-    let view = IntervalBox::from([Interval::new(0.0, DURATION_S)?, Interval::new(0.0, 660.0)?]);
-    let mut figure = Figure::new(view)?
-        .stretched_to(800, 400)
-        .title("Median width of what everybody knows of everybody")
-        .axes("time (s)", "width (m)");
-    for (way, medians_m) in sweep.ways.iter().zip(&sweep.medians_m) {
-        if way.measures != measures {
-            continue;
-        }
-        figure = figure.curve(medians_m);
-        if let Some(last) = medians_m.get(medians_m.len() * 2 / 3) {
-            figure = figure.text(last + Vector2::new(0.0, 3.0), &way.words());
-        }
+    let settled = |medians_m: &&Vec<Vector2<f64>>| {
+        medians_m.iter().filter(|at| at[0] > SETTLED_S).map(|at| at[1]).fold(0.0, f64::max)
+    };
+    let ways = || sweep.ways.iter().zip(&sweep.medians_m).filter(|(way, _)| way.measures == measures);
+    let most_m = ways().map(|(_, medians_m)| settled(&medians_m)).fold(0.0, f64::max);
+    let view = IntervalBox::from([Interval::new(0.0, DURATION_S)?, Interval::new(0.0, 1.1 * most_m)?]);
+    let mut figure = Figure::new(view)?.stretched_to(800, 400).axes("time (s)", "width (m)");
+    let classes = [Class::Inner, Class::Boundary, Class::Outside, Class::Level(0)];
+    for ((way, medians_m), class) in ways().zip(classes) {
+        // From each value to the next, as stairs with a line's thickness.
+        let columns: Result<Vec<_>, Box<dyn Error>> = medians_m
+            .windows(2)
+            .map(|pair| {
+                let [low_m, high_m] = [pair[0][1].min(pair[1][1]), pair[0][1].max(pair[1][1])];
+                let thick_m = 0.004 * most_m;
+                let time_s = Interval::new(pair[0][0], pair[1][0])?;
+                Ok(IntervalBox::from([time_s, Interval::new(low_m - thick_m, high_m + thick_m)?]))
+            })
+            .collect();
+        let words = way.words();
+        let (measured, rest) = words.split_once(", ").unwrap_or((&words, ""));
+        figure = figure
+            .title(&format!("Median width of what everybody knows of everybody, by {measured}"))
+            .union(&columns?, class)
+            .legend(class, rest);
     }
     Ok(figure)
 }

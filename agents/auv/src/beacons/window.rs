@@ -38,10 +38,13 @@ pub(super) fn agreed(
     settings: &TubeSettings,
 ) -> Option<IntervalBox<2>> {
     let rings = rings(pose, reach, mission, course, settings);
-    let least = (0..=settings.outliers).find(|&outliers| {
-        Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0]).is_some()
-    })?;
-    Some(Relaxed::new(&rings, least.saturating_add(settings.margin), settings).hull(position_m))
+    (0..=settings.outliers).find_map(|outliers| {
+        // Whether there may be a place is cheap to ask of one side; all sides together may show that there is none.
+        Relaxed::new(&rings, outliers, settings).bound(position_m, Side::ALL[0])?;
+        let left_m =
+            Relaxed::new(&rings, outliers.saturating_add(settings.margin), settings).hull(position_m);
+        (!left_m.is_empty()).then_some(left_m)
+    })
 }
 
 /// The places that are in all rings but a number of them.

@@ -7,7 +7,9 @@ use crate::message::{
 };
 use crate::ping::Frame;
 use crate::record::{RecordHeader, RecordWriter, RecordedAuv};
-use crate::summary::{Agents, Containment, Flock, Memory, Pings, SUMMARY_FORMAT, Summary, Widths};
+use crate::summary::{
+    Agents, Containment, EstimatorLine, Flock, Memory, Pings, SUMMARY_FORMAT, Summary, Widths,
+};
 use crate::time::{LocalTime, NS_PER_S, SimTime};
 use crate::traffic::{Boundary, Fate, LossReason, Reception, SoundPath, Traffic};
 
@@ -44,7 +46,7 @@ pub fn summary_with(auvs: u32, end_max: f64) -> Summary {
         real_time_factor: Some(30.0),
         wakes: 210,
         digest: "blake3:00ff".into(),
-        estimators: Vec::new(),
+        estimators: vec![EstimatorLine { estimator: "tube".into(), ..EstimatorLine::default() }],
         containment: Containment { checks: 42, violations: 2, ..Containment::default() },
         position_width_m: Widths::default(),
         clock_width_s: Widths { end_max, ..Widths::default() },
