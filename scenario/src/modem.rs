@@ -35,8 +35,6 @@ const SOURCE_LEVEL: Rule = Rule::Within(0.0, 260.0);
 const BEARING_ERROR: Rule = Rule::Within(0.0, std::f64::consts::PI);
 /// What comes later than this is no echo of the same ping.
 const OUTLIER_DELAY: Rule = Rule::Within(0.0, 10.0);
-/// Sound that came 150 m farther round.
-const OUTLIER_DELAY_DEFAULT_S: f64 = 0.1;
 const CAPTURE_DEFAULT_DB: f64 = 6.0;
 
 pub(crate) fn modem(group: &Table<'_>, around: &Surroundings<'_>) -> Option<Modem> {
@@ -79,7 +77,7 @@ fn in_full(table: &Table<'_>, like: &Modem, around: &Surroundings<'_>) -> Option
         Some(value) => table.number_in("bearing_error_rad", value, BEARING_ERROR).map(Some),
     };
     let outlier_rate = table.number("outlier_rate", Some(like.outliers.rate), Rule::Within(0.0, 1.0));
-    let outlier_delay_s = table.number("outlier_delay_s", Some(OUTLIER_DELAY_DEFAULT_S), OUTLIER_DELAY);
+    let outlier_delay_s = table.number("outlier_delay_s", Some(like.outliers.delay_s), OUTLIER_DELAY);
     let frame_bytes = frame_bytes(table, like);
     let addresses = match table.get("addresses") {
         None => Some(like.addresses),

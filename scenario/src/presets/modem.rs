@@ -11,6 +11,9 @@
 
 use crate::model::{FalseArrivals, MediumAccess, Modem, Modulation, PhysicalLayer};
 
+/// None, unless a scenario asks for them.
+const OUTLIERS: FalseArrivals = FalseArrivals { rate: 0.0, delay_s: 0.1 };
+
 /// Modem of a group that does not say its modem.
 pub const MODEM_DEFAULT: &str = "ideal";
 
@@ -35,7 +38,7 @@ pub const IDEAL: Modem = Modem {
     access: every(1),
     timestamp_error_s: 1e-5,
     bearing_error_rad: None,
-    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
+    outliers: OUTLIERS,
     frame_bytes: 64,
     physical: None,
     addresses: None,
@@ -70,7 +73,7 @@ pub const MICROMODEM_FSK: Modem = Modem {
     access: every(10),
     timestamp_error_s: 1.25e-4, // ICRA 2007, unchecked
     bearing_error_rad: None,
-    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
+    outliers: OUTLIERS,
     frame_bytes: 32, // maker: one frame of 32 bytes
     physical: Some(PhysicalLayer {
         source_level_db: 185.0, // ours: 50 W (maker) at 50 %, to all sides: 170.8 + 10 lg 25 = 184.8
@@ -113,7 +116,7 @@ pub const MICROMODEM_PSK: Modem = Modem {
     access: every(5),
     timestamp_error_s: 1.25e-4, // ICRA 2007, unchecked
     bearing_error_rad: None,
-    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
+    outliers: OUTLIERS,
     frame_bytes: 64, // maker
     physical: Some(PhysicalLayer {
         source_level_db: 185.0, // ours, as for FSK
@@ -157,7 +160,7 @@ pub const EVOLOGICS_18_34: Modem = Modem {
     access: every(2),
     timestamp_error_s: 1e-5, // ours: the maker states ranges to 0.01 m, which is 7 µs
     bearing_error_rad: None,
-    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
+    outliers: OUTLIERS,
     frame_bytes: 64, // maker, unchecked: instant messages
     physical: Some(PhysicalLayer {
         source_level_db: 184.0, // ours: 35 W (maker) at 30 %, into a half-sphere: 170.8 + 10 lg 10.5 + 3 = 184.0
@@ -201,7 +204,7 @@ pub const SEATRAC: Modem = Modem {
     access: every(5),
     timestamp_error_s: 3.4e-5, // maker, unchecked: ranges to ±0.05 m, which is 33 µs
     bearing_error_rad: None,
-    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
+    outliers: OUTLIERS,
     frame_bytes: 31, // maker
     physical: Some(PhysicalLayer {
         source_level_db: 176.0, // maker, unchecked
@@ -245,7 +248,7 @@ pub const POPOTO: Modem = Modem {
     access: every(2),
     timestamp_error_s: 1e-4, // ours: one sample of its baseband of 10,240 samples/s
     bearing_error_rad: None,
-    outliers: FalseArrivals { rate: 0.0, delay_s: 0.0 },
+    outliers: OUTLIERS,
     frame_bytes: 64, // ours: its packets are longer, the bus carries no more
     physical: Some(PhysicalLayer {
         source_level_db: 180.0, // ours: 20 W (maker) at 40 %, to all sides: 170.8 + 10 lg 8 = 179.8

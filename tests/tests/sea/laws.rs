@@ -27,9 +27,11 @@ fn still_sea(number: u64) -> Scenario {
     let mut modem = scenario.groups[0].modem.clone();
     modem.access = MediumAccess::Periodic { period_ns: 5_000_000_000, phase_ns: None };
     modem.duty_cycle = None;
+    modem.outliers.rate = 0.0;
     if let Some(layer) = &mut modem.physical {
         layer.source_level_db = 190.0;
     }
+    scenario.faults.clear();
     for group in &mut scenario.groups {
         group.modem = modem.clone();
         group.kind.disturbance_m_s = [0.0; 3];
