@@ -150,6 +150,8 @@ pub struct ModemBounds {
     pub hearing_range_m: f64,
     /// Effective speed of sound, in m/s.
     pub sound_speed_m_s: Bounds,
+    /// Whether that is one number, the same everywhere and always, that is worth finding out.
+    pub sound_speed_is_constant: bool,
     /// Error of an arrival's stamp against the true arrival, in seconds, solver and modem together.
     pub timestamp_s: f64,
     /// Bytes one ping may have.

@@ -152,6 +152,7 @@ fn born(settings: TubeSettings) -> Born {
             range_m: 250.0,
             hearing_range_m: 250.0,
             sound_speed_m_s: around(SOUND_M_S, 1.0),
+            sound_speed_is_constant: true,
             timestamp_s: 1e-5,
             frame_bytes: 64,
         },

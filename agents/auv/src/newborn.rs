@@ -36,6 +36,7 @@ pub fn newborn(access: MediumAccess) -> Born {
             range_m: 1_000.0,
             hearing_range_m: 1_000.0,
             sound_speed_m_s: Bounds::new(1_500.0, 1_500.0),
+            sound_speed_is_constant: false,
             timestamp_s: 1e-5,
             frame_bytes: 64,
         },

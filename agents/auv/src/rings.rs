@@ -50,6 +50,14 @@ impl Ring {
     /// # Errors
     /// The ping, when it allows none.
     pub fn contract(&self, state: &State, sound: &Sound) -> Result<State, Contradiction> {
+        self.contract_with_sound(state, sound).map(|(state, _)| state)
+    }
+
+    /// The present states that this ping allows, and the effective speeds of its sound.
+    ///
+    /// # Errors
+    /// The ping, when it allows none.
+    pub fn contract_with_sound(&self, state: &State, sound: &Sound) -> Result<(State, Sound), Contradiction> {
         let mut position_m = state.position_m;
         let mut centre_m = self.emitter_m + self.since.displacement_m;
         let mut speed_m_s = sound.speed_m_s;
@@ -63,7 +71,7 @@ impl Ring {
         if contracted == Contracted::Empty || offset_s.is_empty() {
             return Err(self.contradiction());
         }
-        Ok(State { offset_s, position_m })
+        Ok((State { offset_s, position_m }, Sound { speed_m_s, ..*sound }))
     }
 
     /// That this ping leaves nothing.

@@ -22,7 +22,11 @@ use crate::travel::{Travel, local_s, seconds};
 /// Encloses the state by a tube.
 pub struct TubeEstimator {
     travel: Travel,
+    /// What is known of sound by now.
     sound: Sound,
+    /// What was told of it at birth.
+    told_sound: Sound,
+    sound_speed_is_constant: bool,
     timestamp_s: f64,
     stamp_s: f64,
     history: History,
@@ -31,9 +35,10 @@ pub struct TubeEstimator {
     stopping_ratio: f64,
 }
 
-/// What one event leaves of a state, and the ring of a ping.
+/// What one event leaves of a state and of what may be the speed of sound, and the ring of a ping.
 struct Informed {
     state: State,
+    sound: Sound,
     ring: Option<Ring>,
 }
 
@@ -49,12 +54,15 @@ impl TubeEstimator {
             offset_s: interval(born.clock.offset_s),
             position_m: interval_box(&born.prior_position_m),
         };
+        let told_sound = Sound {
+            speed_m_s: interval(born.modem.sound_speed_m_s),
+            hearing_range_m: born.modem.hearing_range_m,
+        };
         Self {
             travel: Travel::new(born),
-            sound: Sound {
-                speed_m_s: interval(born.modem.sound_speed_m_s),
-                hearing_range_m: born.modem.hearing_range_m,
-            },
+            sound: told_sound,
+            told_sound,
+            sound_speed_is_constant: born.modem.sound_speed_is_constant,
             timestamp_s: born.modem.timestamp_s,
             stamp_s: born.clock.stamp_ns as f64 * 1e-9,
             history: History::new(born.birth, &state, horizon_ns),
@@ -72,6 +80,11 @@ impl TubeEstimator {
     /// What is known of the velocity from the last tick until `length_s` local seconds later.
     pub(crate) fn stretch_ahead(&self, length_s: f64) -> Stretch {
         self.travel.stretch_ahead(length_s)
+    }
+
+    /// Encloses the effective speed of sound in m/s: what was told at birth, contracted by pings where it is one unknown number.
+    pub fn sound_speed_m_s(&self) -> Interval {
+        self.sound.speed_m_s
     }
 
     /// Bytes of heap that are in use for what is remembered; the horizon and the number of rings bound them.
@@ -100,7 +113,7 @@ impl TubeEstimator {
             return self.contracted(state, event, lag_s);
         }
         let Some((then, since)) = self.odometry.recall(event.stamp, self.travel.motion()) else {
-            return Ok(Informed { state: *state, ring: None });
+            return Ok(Informed { state: *state, sound: self.sound, ring: None });
         };
         let since = since.then(way);
         let mut informed = self.contracted(&then.intersection(&since.back(state)), event, 0.0)?;
@@ -127,7 +140,7 @@ impl TubeEstimator {
                 Err(_) => *state,
             },
         };
-        Ok(Informed { state, ring: None })
+        Ok(Informed { state, sound: self.sound, ring: None })
     }
 
     /// The state contracted by a ping that is stamped `lag_s` local seconds before it, and the ring that it leaves.
@@ -141,7 +154,8 @@ impl TubeEstimator {
         let apart_s = lag_s + self.timestamp_s + 2.0 * self.stamp_s;
         let arrival_s = stamp_s.inflate(self.timestamp_s);
         let ring = Ring::new(ping, arrival_s, Way::within(self.travel.motion(), apart_s));
-        Ok(Informed { state: ring.contract(state, &self.sound)?, ring: Some(ring) })
+        let (state, sound) = ring.contract_with_sound(state, &self.sound)?;
+        Ok(Informed { state, sound, ring: Some(ring) })
     }
 
     /// The state contracted by all rings together, of which the last `fresh` are new. Contradictory, those are dropped.
@@ -184,6 +198,9 @@ impl Estimator for TubeEstimator {
                     Ok(informed) => {
                         contractions += u16::from(informed.state.is_tighter_than(&state));
                         state = informed.state;
+                        if self.sound_speed_is_constant {
+                            self.sound = informed.sound;
+                        }
                         let cuts = |ring: &Ring| together::is_cut_by(&state, ring, &self.sound);
                         if let Some(ring) = informed.ring.filter(cuts) {
                             self.rings.push(ring);
@@ -192,6 +209,8 @@ impl Estimator for TubeEstimator {
                     }
                     Err(Contradiction(by)) => {
                         rejected += u16::from(matches!(by, Culprit::Ping(_)));
+                        // What contradicts may be what the speed was learned from.
+                        self.sound = self.told_sound;
                         emptied.get_or_insert(Emptied { stamp: event.stamp, by });
                     }
                 }
@@ -202,6 +221,7 @@ impl Estimator for TubeEstimator {
                     Ok(contracted) => state = contracted,
                     Err(Contradiction(by)) => {
                         rejected += fresh as u16;
+                        self.sound = self.told_sound;
                         emptied.get_or_insert(Emptied { stamp: sensed.stamp, by });
                     }
                 }

@@ -166,6 +166,7 @@ pub fn born(count: u32) -> Vec<Born> {
             range_m: 500.0,
             hearing_range_m: 500.0,
             sound_speed_m_s: side[0],
+            sound_speed_is_constant: false,
             timestamp_s: 0.0,
             frame_bytes: 32,
         },

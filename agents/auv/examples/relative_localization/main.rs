@@ -30,6 +30,8 @@ const PING_PERIOD_S: f64 = 10.0;
 const DURATION_S: f64 = 600.0;
 /// Widths count from here on: by then everybody has heard everybody a few times.
 const SETTLED_S: f64 = 100.0;
+/// How fine the figures are, in metres: what a person can see.
+const DRAWN_M: f64 = 4.0;
 /// What the figures show.
 const SHOWN_S: f64 = 400.0;
 
@@ -140,7 +142,7 @@ fn draw_known(shown: &Shown, followers: &Followers) -> Result<Figure, Box<dyn Er
         .legend(Class::Boundary, "where a neighbour may be");
     let own_m = shown.vehicles[0].at_m;
     for (index, vehicle) in shown.vehicles.iter().enumerate().skip(1) {
-        let paving = followers.tracks[0][index].paving(PRECISION_M)?;
+        let paving = followers.tracks[0][index].paving(DRAWN_M)?;
         let truth_m = vehicle.at_m - own_m;
         assert!(paving.outer().any(|part| part.contains(&truth_m)), "the paving lost vehicle {index}");
         let parts: Vec<IntervalBox<2>> = paving.outer().copied().collect();

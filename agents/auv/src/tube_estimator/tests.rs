@@ -2,7 +2,7 @@ pub(crate) mod truth;
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
-use shoal_bus::message::TubeSettings;
+use shoal_bus::message::{Bounds, TubeSettings};
 
 use self::truth::{Pushes, Truth, pushes, told};
 use super::*;
@@ -145,6 +145,48 @@ fn a_ping_beyond_the_horizon_is_ignored() {
     let never = width_m(&[]);
     assert!(width_m(&[(arrived_ns, 19 * PERIOD_NS)]) < never - 0.1);
     assert!((width_m(&[(arrived_ns, 23 * PERIOD_NS)]) - never).abs() < 1e-6);
+}
+
+/// Runs an AUV that knows the speed of sound, 1,500 m/s, to 50 m/s only; the estimator is given back, with its last box's width in m.
+fn unsure_of_sound(
+    is_constant: bool,
+    drift: f64,
+    pushes: &Pushes,
+    arrivals: &[(i64, i64)],
+) -> Result<(TubeEstimator, f64), TestCaseError> {
+    let mut born = told(drift, 0.05);
+    let truth = Truth::new(&born, pushes);
+    born.modem.sound_speed_m_s = Bounds::new(1_465.0, 1_515.0);
+    born.modem.sound_speed_is_constant = is_constant;
+    let mut estimator = TubeEstimator::new(&born);
+    let estimates = enclosed_by(&mut estimator, &truth, &heard(&truth, arrivals, TICKS))?;
+    Ok((estimator, estimates.last().map_or(0.0, |last| last.state.position_m.width())))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Pings contract the speed of sound where it is one number, late ones too, and never lose it.
+    #[test]
+    fn the_speed_of_sound_is_never_lost(
+        pushes in lives(),
+        drift in prop_oneof![Just(0.0), 1e-6..0.02_f64],
+        arrivals in prop::collection::vec(
+            (0..TICKS as i64 * PERIOD_NS, prop_oneof![Just(0), 0..5_000_000_000_i64]), 0..40),
+    ) {
+        let (estimator, _) = unsure_of_sound(true, drift, &pushes, &arrivals)?;
+        prop_assert!(estimator.sound_speed_m_s().contains(1_500.0), "{}", estimator.sound_speed_m_s());
+    }
+}
+
+#[test]
+fn pings_tell_the_speed_of_sound_and_with_it_the_position() {
+    let arrivals: Vec<_> = (0..TICKS as i64).map(|index| (index * PERIOD_NS + 12_345_678, 0)).collect();
+    let (learned, learned_m) = unsure_of_sound(true, 1e-6, &steady(), &arrivals).unwrap();
+    let (told, told_m) = unsure_of_sound(false, 1e-6, &steady(), &arrivals).unwrap();
+    assert_eq!(told.sound_speed_m_s().width(), 50.0);
+    assert!(learned.sound_speed_m_s().width() < 15.0, "{}", learned.sound_speed_m_s());
+    assert!(learned_m < 0.8 * told_m, "{learned_m} m, not learning {told_m} m");
 }
 
 /// A Doppler velocity log at every so many ticks.

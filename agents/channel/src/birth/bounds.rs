@@ -1,7 +1,7 @@
 //! What is certain about body and modem, as an AUV is told.
 
 use shoal_bus::message::{BodyBounds, Bounds, BoundsBox, Measures, ModemBounds, Relative};
-use shoal_scenario::model::{self, Environment, Group, Level, Scenario};
+use shoal_scenario::model::{self, Environment, Group, Level, Scenario, SoundSpeed};
 
 use crate::body::{Body, Vec3};
 use crate::budget::nominal_reach_m;
@@ -101,6 +101,15 @@ fn range_m(scenario: &Scenario, group: &Group) -> f64 {
     }
 }
 
+/// Whether sound has one speed everywhere, and the scenario keeps it from the AUVs.
+fn has_one_unknown_speed(environment: &Environment) -> bool {
+    let is_one = match &environment.level {
+        Level::Ideal => true,
+        Level::Sea(sea) => sea.sound_speed == SoundSpeed::Uniform,
+    };
+    is_one && environment.sound_speed_error_m_s > 0.0
+}
+
 /// Bounds of the modem and of sound in this water.
 pub fn modem(scenario: &Scenario, group: &Group, water: &Water) -> ModemBounds {
     let hearing_range_m = match scenario.environment.level {
@@ -116,6 +125,7 @@ pub fn modem(scenario: &Scenario, group: &Group, water: &Water) -> ModemBounds {
         range_m: range_m(scenario, group),
         hearing_range_m,
         sound_speed_m_s: water.told_sound_speed_m_s,
+        sound_speed_is_constant: has_one_unknown_speed(&scenario.environment),
         timestamp_s: group.modem.timestamp_error_s + ARRIVAL_TOLERANCE_S,
         frame_bytes: group.modem.frame_bytes,
     }
