@@ -129,8 +129,9 @@ impl Odometry {
         let index = self.legs.partition_point(|leg| leg.ended < stamp);
         let leg = self.legs.get(index).filter(|leg| leg.begun <= stamp)?;
         let split_s = seconds(stamp - leg.begun);
-        let before = motion.over(&leg.stretch, 0.0, split_s);
-        let after = motion.over(&leg.stretch, split_s, leg.stretch.length_s);
+        let passage = motion.along(&leg.stretch);
+        let before = passage.over(0.0, split_s);
+        let after = passage.over(split_s, leg.stretch.length_s);
         let since = self.legs.range(index + 1..);
         let way = since.fold(Way::from(&after), |way, leg| way.then(&leg.way));
         Some((leg.state.moved(&before), way))

@@ -176,6 +176,7 @@ impl Estimator for TubeEstimator {
         let mut rejected = 0;
         let begun = self.travel.now();
         let stretch = self.travel.advance(sensed, &mut emptied);
+        let passage = self.travel.motion().along(&stretch);
         let mut state = self.history.last();
         let mut since = begun;
         let mut slice: Option<State> = None;
@@ -186,7 +187,7 @@ impl Estimator for TubeEstimator {
         loop {
             // All events up to the next moment are told before the tube moves on to it.
             let next = events.peek().map_or(sensed.stamp, |event| event.stamp.clamp(since, sensed.stamp));
-            let moved = self.travel.motion().over(&stretch, seconds(since - begun), seconds(next - begun));
+            let moved = passage.over(seconds(since - begun), seconds(next - begun));
             let before = state;
             state = state.moved(&moved);
             way = way.then(&Way::from(&moved));
