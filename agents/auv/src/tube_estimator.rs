@@ -11,7 +11,6 @@ use shoal_interval::Interval;
 
 use crate::bounds::{interval, interval_box};
 use crate::estimator::{Estimate, Estimator, Prediction};
-use crate::history::History;
 use crate::motion::Stretch;
 use crate::odometry::{Leg, Odometry, Way};
 use crate::rings::{Ring, Rings};
@@ -29,7 +28,8 @@ pub struct TubeEstimator {
     sound_speed_is_constant: bool,
     timestamp_s: f64,
     stamp_s: f64,
-    history: History,
+    /// At the last tick.
+    state: State,
     odometry: Odometry,
     rings: Rings,
     stopping_ratio: f64,
@@ -65,7 +65,7 @@ impl TubeEstimator {
             sound_speed_is_constant: born.modem.sound_speed_is_constant,
             timestamp_s: born.modem.timestamp_s,
             stamp_s: born.clock.stamp_ns as f64 * 1e-9,
-            history: History::new(born.birth, &state, horizon_ns),
+            state,
             odometry: Odometry::new(horizon_ns),
             rings: Rings::new(settings.rings.into(), seconds(horizon_ns)),
             stopping_ratio: settings.stopping_ratio,
@@ -89,7 +89,7 @@ impl TubeEstimator {
 
     /// Bytes of heap that are in use for what is remembered; the horizon and the number of rings bound them.
     pub fn memory_bytes(&self) -> usize {
-        self.history.memory_bytes() + self.odometry.memory_bytes() + self.rings.memory_bytes()
+        self.odometry.memory_bytes() + self.rings.memory_bytes()
     }
 
     /// Exact local time of something stamped `stamp`, in seconds.
@@ -177,7 +177,7 @@ impl Estimator for TubeEstimator {
         let begun = self.travel.now();
         let stretch = self.travel.advance(sensed, &mut emptied);
         let passage = self.travel.motion().along(&stretch);
-        let mut state = self.history.last();
+        let mut state = self.state;
         let mut since = begun;
         let mut slice: Option<State> = None;
         let mut way = Way::none();
@@ -237,13 +237,13 @@ impl Estimator for TubeEstimator {
 
         let slice = slice.unwrap_or(state);
         self.rings.forget(sensed.stamp.as_s());
-        self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.history.last(), stretch, way });
-        self.history.append(sensed.stamp, &slice, &state);
+        self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.state, stretch, way });
+        self.state = state;
         Estimate { state, slice, emptied, contractions, rejected, components: 1, gaussian: None }
     }
 
     fn predict(&self, at: LocalTime) -> Prediction {
-        self.travel.predict(&self.history.last(), at, self.local_s(at))
+        self.travel.predict(&self.state, at, self.local_s(at))
     }
 }
 

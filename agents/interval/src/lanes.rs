@@ -56,9 +56,9 @@ pub(crate) fn products<const N: usize>(a: &[Interval; N], factor: Interval) -> O
     // A factor that is not positive is the negative of one that is not negative.
     let is_negative = least < 0.0;
     let (least, most) = if is_negative { (neg_most, -least) } else { (least, -neg_most) };
+    let a = if is_negative { a.map(|interval| -interval) } else { *a };
     each(|index| {
         let [lower, neg_upper] = a[index].lower_bounds();
-        let (lower, neg_upper) = if is_negative { (neg_upper, lower) } else { (lower, neg_upper) };
         [lower, neg_upper].map(|bound| product(bound, if bound >= 0.0 { least } else { most }))
     })
 }
@@ -104,12 +104,12 @@ fn product(a: f64, b: f64) -> Rounded {
     let product = a * b;
     let error = a.mul_add(b, -product);
     let size = product.to_bits() & !SIGN_BIT;
-    let is_zero = (a == 0.0) | (b == 0.0);
-    let below = if is_zero { 0 } else { size.wrapping_sub(ERROR_IS_EXACT_ABOVE_BITS) };
+    // All bits, or none where a factor is zero: then so is the product, exactly.
+    let kept = (-i64::from((a != 0.0) & (b != 0.0))).cast_unsigned();
     Rounded {
-        down: if is_zero { 0.0 } else { step_down_if(error < 0.0, product) },
+        down: f64::from_bits(step_down_if(error < 0.0, product).to_bits() & kept),
         // Zero times infinity is not a number.
-        doubt: (size + EXPONENT_BIT) | below,
+        doubt: (size + EXPONENT_BIT) | (size.wrapping_sub(ERROR_IS_EXACT_ABOVE_BITS) & kept),
     }
 }
 

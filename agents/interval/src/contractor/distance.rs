@@ -57,39 +57,22 @@ fn contract<const N: usize>(
         return None;
     }
     let differences = (*a - *b).sides();
-    let squares = match lanes::squares(&differences) {
-        Some(squares) => squares.map(Bounds::of),
-        None => differences.map(|difference| Bounds::of(difference).square()),
-    };
-    let differences = differences.map(Bounds::of);
-
-    // The squares before an axis and those after it; subtracting its own from the sum of all would count its width twice.
-    let mut after = [Bounds::ZERO; N];
-    for axis in (1..N).rev() {
-        after[axis - 1] = if axis + 1 == N { squares[axis] } else { squares[axis].plus(after[axis]) };
-    }
-    let sum = if N == 0 {
-        Bounds::ZERO
-    } else if N == 1 {
-        squares[0]
-    } else {
-        squares[0].plus(after[0])
-    };
+    let squares = lanes::squares(&differences).unwrap_or_else(|| differences.map(Interval::sqr));
+    let (sum, others) = sums_of_others(&squares);
 
     let mut narrowed = false;
     let shortest = larger(range.lower(), 0.0);
-    let mut square =
-        Bounds { lower: mul_down(shortest, shortest), upper: mul_up(range.upper(), range.upper()) };
+    let (mut least, mut most) = (mul_down(shortest, shortest), mul_up(range.upper(), range.upper()));
     let (mut lower, mut upper) = (shortest, range.upper());
-    if sum.lower > square.lower {
-        square.lower = sum.lower;
-        lower = larger(lower, sqrt_down(sum.lower));
+    if sum.lower() > least {
+        least = sum.lower();
+        lower = larger(lower, sqrt_down(sum.lower()));
     }
-    if sum.upper < square.upper {
-        square.upper = sum.upper;
-        upper = smaller(upper, sqrt_up(sum.upper));
+    if sum.upper() < most {
+        most = sum.upper();
+        upper = smaller(upper, sqrt_up(sum.upper()));
     }
-    if square.lower > square.upper || lower > upper {
+    if least > most || lower > upper {
         return None;
     }
     if lower != range.lower() || upper != range.upper() {
@@ -97,26 +80,38 @@ fn contract<const N: usize>(
         narrowed = true;
     }
 
-    let mut before = Bounds::ZERO;
+    let left = IntervalBox::from([Interval::from_bounds(least, most); N]) - IntervalBox::from(others);
     for axis in 0..N {
-        let others = if axis == 0 {
-            after[0]
-        } else if axis + 1 == N {
-            before
-        } else {
-            before.plus(after[axis])
-        };
-        before = if axis == 0 { squares[0] } else { before.plus(squares[axis]) };
-        let left =
-            Bounds { lower: sub_down(square.lower, others.upper), upper: sub_up(square.upper, others.lower) };
-        if left.lower <= squares[axis].lower && left.upper >= squares[axis].upper {
+        let (known, wanted) = (Bounds::of(squares[axis]), Bounds::of(left[axis]));
+        if wanted.lower <= known.lower && wanted.upper >= known.upper {
             continue;
         }
-        let whole = differences[axis];
-        let part = whole.with_square_in(squares[axis], left)?;
+        let whole = Bounds::of(differences[axis]);
+        let part = whole.with_square_in(known, wanted)?;
         narrowed |= contract_side(&mut a[axis], &mut b[axis], whole, part)?;
     }
     Some(narrowed)
+}
+
+/// The sum of all squares, and for each axis that of the others: to take its own from the sum of all would count its width twice.
+#[inline(always)]
+fn sums_of_others<const N: usize>(squares: &[Interval; N]) -> (Interval, [Interval; N]) {
+    let mut others = [Interval::ZERO; N];
+    let Some((&last, front)) = squares.split_last() else { return (Interval::ZERO, others) };
+    // Of those behind each axis, and then of those before it, too.
+    let mut after = last;
+    for axis in (0..front.len()).rev() {
+        others[axis] = after;
+        after = front[axis] + after;
+    }
+    let mut before = squares[0];
+    for axis in 1..N {
+        others[axis] = if axis < front.len() { before + others[axis] } else { before };
+        if axis < front.len() {
+            before += squares[axis];
+        }
+    }
+    (after, others)
 }
 
 /// Contracts `a` and `b` when `a - b`, known to be in `whole`, must be in `part`; whether that moved a bound.
@@ -148,23 +143,9 @@ struct Bounds {
 }
 
 impl Bounds {
-    const ZERO: Bounds = Bounds { lower: 0.0, upper: 0.0 };
-
     #[inline]
     fn of(interval: Interval) -> Bounds {
         Bounds { lower: interval.lower(), upper: interval.upper() }
-    }
-
-    #[inline]
-    fn plus(self, other: Bounds) -> Bounds {
-        Bounds { lower: add_down(self.lower, other.lower), upper: add_up(self.upper, other.upper) }
-    }
-
-    #[inline]
-    fn square(self) -> Bounds {
-        let smallest = larger(0.0, larger(self.lower, -self.upper));
-        let largest = larger(-self.lower, self.upper);
-        Bounds { lower: mul_down(smallest, smallest), upper: mul_up(largest, largest) }
     }
 
     /// The hull of the numbers whose square, already known to be in `known`, is in `wanted`.
