@@ -39,6 +39,7 @@ impl Way {
     }
 
     /// This way, and then `next`.
+    #[inline]
     pub fn then(&self, next: &Way) -> Self {
         Self {
             displacement_m: self.displacement_m + next.displacement_m,

@@ -39,6 +39,22 @@ pub(crate) fn differences<const N: usize>(a: &[Interval; N], b: &[Interval; N]) 
     })
 }
 
+/// Everything within `radius` of `middle`; in doubt unless both are finite.
+#[inline(always)]
+pub(crate) fn centred(middle: f64, radius: f64) -> Option<Interval> {
+    each(|_| [sum(middle, -radius), sum(-middle, -radius)]).map(|[interval]| interval)
+}
+
+/// The smallest intervals that hold `one[i]` and `other[i]`, for all i; in doubt unless all are finite.
+#[inline(always)]
+pub(crate) fn spanning<const N: usize>(one: &[f64; N], other: &[f64; N]) -> Option<[Interval; N]> {
+    each(|index| {
+        let (one, other) = (one[index], other[index]);
+        let doubt = ((one + other).to_bits() & !SIGN_BIT) + EXPONENT_BIT;
+        [smaller(one, other), smaller(-one, -other)].map(|down| Rounded { down, doubt })
+    })
+}
+
 /// `a[i] * factor` for all i.
 #[inline(always)]
 pub(crate) fn products<const N: usize>(a: &[Interval; N], factor: Interval) -> Option<[Interval; N]> {

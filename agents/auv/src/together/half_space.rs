@@ -119,12 +119,13 @@ impl Frame {
         if !cuts(&far) {
             return [Some(near).filter(cuts), None];
         }
-        let mut bend_m = 0.0_f64;
-        for corner in 0..8 {
+        let mut bends_m = [0.0; 8];
+        for (corner, bend_m) in bends_m.iter_mut().enumerate() {
             let (x, y, z) = (corner & 1, corner >> 1 & 1, corner >> 2);
             let length_m = (squares[0][x] + squares[1][y] + squares[2][z]).sqrt();
-            bend_m = bend_m.max(length_m - (along[0][x] + along[1][y] + along[2][z]));
+            *bend_m = length_m - (along[0][x] + along[1][y] + along[2][z]);
         }
+        let bend_m = bends_m.into_iter().fold(0.0, f64::max);
 
         far.bound += bend_m;
         [near, far].map(|plane| Some(plane).filter(cuts))

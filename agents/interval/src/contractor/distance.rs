@@ -8,7 +8,7 @@ use super::Contracted;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
 use crate::lanes;
-use crate::rounding::{add_down, add_up, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up};
+use crate::rounding::{mul_down, mul_up, sqrt_down, sqrt_up};
 use crate::set::{larger, smaller};
 
 /// Contracts two boxes and an interval linked by `‖a - b‖ = range`, the Euclidean norm, all in the same unit.
@@ -81,14 +81,24 @@ fn contract<const N: usize>(
     }
 
     let left = IntervalBox::from([Interval::from_bounds(least, most); N]) - IntervalBox::from(others);
+    let mut part = differences;
+    let mut cut = false;
     for axis in 0..N {
         let (known, wanted) = (Bounds::of(squares[axis]), Bounds::of(left[axis]));
-        if wanted.lower <= known.lower && wanted.upper >= known.upper {
-            continue;
+        if wanted.lower > known.lower || wanted.upper < known.upper {
+            part[axis] = Bounds::of(differences[axis]).with_square_in(known, wanted)?;
+            cut |= part[axis] != differences[axis];
         }
-        let whole = Bounds::of(differences[axis]);
-        let part = whole.with_square_in(known, wanted)?;
-        narrowed |= contract_side(&mut a[axis], &mut b[axis], whole, part)?;
+    }
+    if cut {
+        // A side whose difference is still the whole one stays as it is: rounding outwards adds to that, and takes nothing away.
+        let part = IntervalBox::from(part);
+        let (new_a, new_b) = (*a & (*b + part), *b & (*a - part));
+        if new_a.is_empty() || new_b.is_empty() {
+            return None;
+        }
+        narrowed |= new_a != *a || new_b != *b;
+        (*a, *b) = (new_a, new_b);
     }
     Some(narrowed)
 }
@@ -114,27 +124,6 @@ fn sums_of_others<const N: usize>(squares: &[Interval; N]) -> (Interval, [Interv
     (after, others)
 }
 
-/// Contracts `a` and `b` when `a - b`, known to be in `whole`, must be in `part`; whether that moved a bound.
-#[inline]
-fn contract_side(a: &mut Interval, b: &mut Interval, whole: Bounds, part: Bounds) -> Option<bool> {
-    let (mut new_a, mut new_b) = (Bounds::of(*a), Bounds::of(*b));
-    if part.lower > whole.lower {
-        new_a.lower = larger(a.lower(), add_down(b.lower(), part.lower));
-        new_b.upper = smaller(b.upper(), sub_up(a.upper(), part.lower));
-    }
-    if part.upper < whole.upper {
-        new_a.upper = smaller(a.upper(), add_up(b.upper(), part.upper));
-        new_b.lower = larger(b.lower(), sub_down(a.lower(), part.upper));
-    }
-    if new_a.lower > new_a.upper || new_b.lower > new_b.upper {
-        return None;
-    }
-    let narrowed = new_a != Bounds::of(*a) || new_b != Bounds::of(*b);
-    *a = Interval::from_bounds(new_a.lower, new_a.upper);
-    *b = Interval::from_bounds(new_b.lower, new_b.upper);
-    Some(narrowed)
-}
-
 /// An interval that is not empty, and need not be looked at for that again.
 #[derive(Clone, Copy, PartialEq)]
 struct Bounds {
@@ -150,7 +139,7 @@ impl Bounds {
 
     /// The hull of the numbers whose square, already known to be in `known`, is in `wanted`.
     #[inline]
-    fn with_square_in(self, known: Bounds, wanted: Bounds) -> Option<Bounds> {
+    fn with_square_in(self, known: Bounds, wanted: Bounds) -> Option<Interval> {
         let Bounds { mut lower, mut upper } = self;
         if wanted.upper < known.upper {
             if wanted.upper < 0.0 {
@@ -171,7 +160,7 @@ impl Bounds {
                 upper = smaller(upper, -root);
             }
         }
-        (lower <= upper).then_some(Bounds { lower, upper })
+        (lower <= upper).then(|| Interval::from_bounds(lower, upper))
     }
 }
 
