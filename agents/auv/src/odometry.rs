@@ -41,10 +41,14 @@ impl Way {
     /// This way, and then `next`.
     #[inline]
     pub fn then(&self, next: &Way) -> Self {
-        Self {
-            displacement_m: self.displacement_m + next.displacement_m,
-            offset_gain_s: self.offset_gain_s + next.offset_gain_s,
-        }
+        // All four coordinates at once.
+        let [x, y, z, offset_gain_s] = (self.as_box() + next.as_box()).sides();
+        Self { displacement_m: IntervalBox::from([x, y, z]), offset_gain_s }
+    }
+
+    fn as_box(&self) -> IntervalBox<4> {
+        let [x, y, z] = self.displacement_m.sides();
+        IntervalBox::from([x, y, z, self.offset_gain_s])
     }
 
     /// The state at its end, from the one at its beginning.

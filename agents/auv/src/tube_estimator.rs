@@ -28,6 +28,8 @@ pub struct TubeEstimator {
     sound_speed_is_constant: bool,
     timestamp_s: f64,
     stamp_s: f64,
+    /// What can have happened between a moment and an event of the same stamp.
+    at_once: Way,
     /// At the last tick.
     state: State,
     odometry: Odometry,
@@ -58,13 +60,17 @@ impl TubeEstimator {
             speed_m_s: interval(born.modem.sound_speed_m_s),
             hearing_range_m: born.modem.hearing_range_m,
         };
+        let travel = Travel::new(born);
+        let timestamp_s = born.modem.timestamp_s;
+        let stamp_s = born.clock.stamp_ns as f64 * 1e-9;
         Self {
-            travel: Travel::new(born),
+            at_once: Way::within(travel.motion(), apart_s(0.0, timestamp_s, stamp_s)),
+            travel,
             sound: told_sound,
             told_sound,
             sound_speed_is_constant: born.modem.sound_speed_is_constant,
-            timestamp_s: born.modem.timestamp_s,
-            stamp_s: born.clock.stamp_ns as f64 * 1e-9,
+            timestamp_s,
+            stamp_s,
             state,
             odometry: Odometry::new(horizon_ns),
             rings: Rings::new(settings.rings.into(), seconds(horizon_ns)),
@@ -151,9 +157,13 @@ impl TubeEstimator {
         stamp_s: Interval,
         lag_s: f64,
     ) -> Result<Informed, Contradiction> {
-        let apart_s = lag_s + self.timestamp_s + 2.0 * self.stamp_s;
         let arrival_s = stamp_s.inflate(self.timestamp_s);
-        let ring = Ring::new(ping, arrival_s, Way::within(self.travel.motion(), apart_s));
+        let since = if lag_s == 0.0 {
+            self.at_once
+        } else {
+            Way::within(self.travel.motion(), apart_s(lag_s, self.timestamp_s, self.stamp_s))
+        };
+        let ring = Ring::new(ping, arrival_s, since);
         let (state, sound) = ring.contract_with_sound(state, &self.sound)?;
         Ok(Informed { state, sound, ring: Some(ring) })
     }
@@ -167,6 +177,11 @@ impl TubeEstimator {
         }
         contracted
     }
+}
+
+/// Local seconds, at most, between a moment and an event that is stamped `lag_s` before it.
+fn apart_s(lag_s: f64, timestamp_s: f64, stamp_s: f64) -> f64 {
+    lag_s + timestamp_s + 2.0 * stamp_s
 }
 
 impl Estimator for TubeEstimator {

@@ -7,7 +7,7 @@
 
 use crate::interval::Interval;
 use crate::rounding::{ERROR_IS_EXACT_ABOVE_BITS, step_down_if};
-use crate::set::smaller;
+use crate::set::{larger, smaller};
 
 const SIGN_BIT: u64 = 1 << 63;
 /// The lowest bit of the exponent.
@@ -84,10 +84,9 @@ pub(crate) fn products<const N: usize>(a: &[Interval; N], factor: Interval) -> O
 pub(crate) fn squares<const N: usize>(a: &[Interval; N]) -> Option<[Interval; N]> {
     each(|index| {
         let [lower, neg_upper] = a[index].lower_bounds();
-        let larger = if lower > neg_upper { lower } else { neg_upper };
-        let smallest = if larger > 0.0 { larger } else { 0.0 };
+        let smallest = larger(larger(lower, neg_upper), 0.0);
         let neg_largest = smaller(lower, neg_upper);
-        [product(smallest, smallest), product(neg_largest, -neg_largest)]
+        [smallest, neg_largest].map(|bound| product(bound, bound.abs()))
     })
 }
 
@@ -133,3 +132,6 @@ fn product(a: f64, b: f64) -> Rounded {
 fn lesser(one: Rounded, other: Rounded) -> Rounded {
     Rounded { down: smaller(one.down, other.down), doubt: one.doubt | other.doubt }
 }
+
+#[cfg(test)]
+mod tests;
