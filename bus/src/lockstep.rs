@@ -53,6 +53,11 @@ pub trait Fleet {
         meanwhile: &mut dyn FnMut(),
     ) -> Result<Answers, FleetError>;
 
+    /// AUVs that were lost and have a place again, sorted: their births may follow, by [`born`](Self::born). Each is told once.
+    fn vacancies(&mut self) -> Vec<AuvId> {
+        Vec::new()
+    }
+
     /// Tells every AUV that the run is over.
     fn end(&mut self);
 }

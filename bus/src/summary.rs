@@ -252,9 +252,9 @@ pub struct Flock {
 /// AUVs that did not make it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Agents {
-    /// Those whose process ended.
+    /// Those whose process ended, and each time that it did.
     pub lost: Vec<LostAgent>,
-    /// Those that were born again.
+    /// Those that were born again, when, and how they had ended before.
     pub restarted: Vec<LostAgent>,
 }
 
