@@ -38,6 +38,8 @@ pub struct Vehicle {
     pub length_m: f64,
     /// Pings emitted so far.
     pub emitted: u32,
+    /// Pings that arrived and were decoded so far.
+    pub pings_heard: u64,
     /// End of its last packet, at the emitter.
     pub emits_until: SimTime,
     exposure: Exposure,
@@ -125,6 +127,7 @@ impl Vehicle {
             ground_speed_m_s,
             length_m,
             emitted: 0,
+            pings_heard: 0,
             emits_until: SimTime::ZERO,
             exposure,
             false_arrivals,
@@ -231,6 +234,7 @@ impl Vehicle {
         let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns + late_ns;
         let bearing =
             self.bearings.as_mut().zip(incidence).map(|(array, incidence)| array.sense(from, incidence));
+        self.pings_heard += 1;
         self.heard.push(HeardPing { stamp, at, from, frame, bearing, is_false });
     }
 
