@@ -300,9 +300,10 @@ impl Vehicle {
             self.between.take().unwrap_or_else(|| self.truth_at(self.between_ticks()));
 
         let mut events = Vec::with_capacity(self.heard.len() + 4);
-        self.sensors.sense(stamp, at, &pose, &mut events);
+        // The sensors speak last, so that hardly anything is left to sort.
         self.hand_over_heard(stamp, at, &mut events);
         self.hand_over_held(stamp, at, &mut events);
+        self.sensors.sense(stamp, at, &pose, &mut events);
         events.sort_by_key(|event| (event.stamp, kind_rank(&event.sense)));
 
         let tick = Tick { index: self.next_tick, stamp, at, pose, between_position_m, between_offset_s };

@@ -1,8 +1,6 @@
 //! The canonical order of what happened.
 
 use shoal_bus::chronicle::{Entry, What};
-use shoal_bus::message::AuvId;
-use shoal_bus::time::SimTime;
 
 use crate::parallel;
 
@@ -13,38 +11,54 @@ pub(super) struct CanonicalOrder {
     keys: Vec<Key>,
 }
 
-/// What an entry is sorted by, and where it stands.
-type Key = (SimTime, AuvId, u8, u32, u32, u32);
+/// What an entry is sorted by, and where it stands. Packed, so that comparing two is mostly comparing two numbers.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    /// True time, vehicle and kind.
+    moment: u128,
+    /// Emitter and number of a ping.
+    ping: u64,
+    place: u32,
+}
 
 impl CanonicalOrder {
     /// Sorts the entries.
     pub(super) fn sort(&mut self, entries: &mut [Entry]) {
         self.keys.clear();
-        self.keys.extend((0..).zip(&*entries).map(|(index, entry)| key(entry, index)));
+        self.keys.extend((0..).zip(&*entries).map(|(place, entry)| Key::of(entry, place)));
         // No two keys are equal, so there is one order, however it is found.
         parallel::sort(&mut self.keys);
         for place in 0..entries.len() {
-            let mut from = self.keys[place].5 as usize;
+            let mut from = self.keys[place].place as usize;
             // What stood at places before this one was moved to where its successor came from.
             while from < place {
-                from = self.keys[from].5 as usize;
+                from = self.keys[from].place as usize;
             }
-            self.keys[place].5 = from as u32;
+            self.keys[place].place = from as u32;
             entries.swap(place, from);
         }
     }
 }
 
-fn key(entry: &Entry, index: u32) -> Key {
-    let (from, sequence) = match &entry.what {
-        What::Traffic(traffic) => (traffic.from.0, traffic.sequence),
-        _ => (0, 0),
-    };
-    (entry.at, entry.auv, entry.what.rank(), from, sequence, index)
+impl Key {
+    fn of(entry: &Entry, place: u32) -> Self {
+        let &Entry { at, auv, ref what } = entry;
+        // The same order without a sign.
+        let at = at.ns().wrapping_sub(i64::MIN) as u64;
+        let moment = u128::from(at) << 64 | u128::from(auv.0) << 32 | u128::from(what.rank());
+        let ping = match what {
+            What::Traffic(traffic) => u64::from(traffic.from.0) << 32 | u64::from(traffic.sequence),
+            _ => 0,
+        };
+        Self { moment, ping, place }
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use shoal_bus::message::AuvId;
+    use shoal_bus::time::SimTime;
+
     use super::*;
 
     #[test]
