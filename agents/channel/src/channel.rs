@@ -4,6 +4,7 @@ mod answers;
 mod departures;
 mod life;
 mod order;
+mod rebirth;
 
 use shoal_bus::chronicle::{Entry, What};
 use shoal_bus::codec::CodecError;

@@ -24,6 +24,7 @@ pub struct Tally {
     /// One for each AUV.
     pub scores: Vec<Score>,
     lost: Vec<LostAgent>,
+    restarted: Vec<LostAgent>,
 }
 
 /// What one AUV was told of pings.
@@ -62,7 +63,12 @@ impl Score {
 impl Tally {
     /// Nothing counted yet, for so many AUVs.
     pub fn new(auvs: usize) -> Self {
-        Self { counts: Counts::default(), scores: vec![Score::default(); auvs], lost: Vec::new() }
+        Self {
+            counts: Counts::default(),
+            scores: vec![Score::default(); auvs],
+            lost: Vec::new(),
+            restarted: Vec::new(),
+        }
     }
 
     /// An AUV is gone.
@@ -71,6 +77,13 @@ impl Tally {
         self.lost.push(LostAgent { auv: auv.0, name, time_s: at.as_s(), reason: reason.clone() });
         self.lost.sort_by_key(|lost| lost.auv);
         self.counts.happened(at, auv, What::Ended(reason));
+    }
+
+    /// An AUV that was lost is born again.
+    pub fn restarted(&mut self, at: SimTime, auv: AuvId) {
+        let last = self.lost.iter().rfind(|lost| lost.auv == auv.0);
+        self.restarted.extend(last.map(|lost| LostAgent { time_s: at.as_s(), ..lost.clone() }));
+        self.restarted.sort_by_key(|restarted| restarted.auv);
     }
 
     /// What the run amounts to at `now`.
@@ -111,7 +124,7 @@ impl Tally {
             clock_width_s: widths(1),
             pings: Pings { in_flight, ..self.counts.pings },
             flock,
-            agents: Agents { lost: self.lost.clone(), restarted: Vec::new() },
+            agents: Agents { lost: self.lost.clone(), restarted: self.restarted.clone() },
             memory: None,
         }
     }
