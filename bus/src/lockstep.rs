@@ -77,8 +77,6 @@ pub enum ToAuv {
 /// From one AUV to the channel.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum FromAuv {
-    /// The process is up.
-    Hello,
     /// The answers to one batch.
     Acted(Vec<Acted>),
 }

@@ -14,6 +14,7 @@ use super::{BUS, down_key, session, up_key};
 use crate::codec;
 use crate::lockstep::{FromAuv, Link, LinkError, ToAuv};
 use crate::message::{Acted, AuvId};
+use crate::protocol::{Dialect, Hello};
 
 /// How often an AUV says hello until it is born.
 const HELLO_AGAIN: Duration = Duration::from_millis(100);
@@ -61,7 +62,7 @@ impl ZenohLink {
     }
 
     fn hello(&self) -> Result<(), LinkError> {
-        self.send(Kind::Hello, 0, &codec::encode(&FromAuv::Hello)?)
+        self.send(Kind::Hello, 0, &Hello::new(Dialect::Binary).write())
     }
 
     fn send(&self, kind: Kind, sequence: u64, message: &[u8]) -> Result<(), LinkError> {
