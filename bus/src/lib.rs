@@ -4,6 +4,7 @@
 
 pub mod chronicle;
 pub mod codec;
+pub mod composite;
 #[cfg(feature = "iceoryx2")]
 mod iceoryx;
 pub mod local;

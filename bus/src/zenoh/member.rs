@@ -7,9 +7,10 @@ use zenoh::{Session, Wait};
 use super::down_key;
 use super::fleet::failed;
 use super::frame::{Kind, Up, write_down};
+use crate::codec;
 use crate::lockstep::{Answers, Batch, FleetError, Loss};
-use crate::message::AuvId;
-use crate::wire::{NOT_A_MESSAGE, read_acted};
+use crate::message::{AuvId, Sensed};
+use crate::wire::{NOT_A_MESSAGE, ToAuvRef, read_acted};
 
 /// One AUV as the channel sees it.
 pub(super) struct Member {
@@ -50,6 +51,14 @@ impl Member {
     pub(super) fn send_next(&mut self, message: &[u8]) -> Result<(), FleetError> {
         self.sequence += 1;
         self.down.put(write_down(self.sequence, message)).wait().map_err(failed)
+    }
+
+    /// Sends what it sensed and awaits its answers.
+    pub(super) fn send_batch(&mut self, items: &[Sensed]) -> Result<(), FleetError> {
+        let message = codec::encode(&ToAuvRef::Sensed(items)).map_err(failed)?;
+        self.send_next(&message)?;
+        self.awaits = Awaits::Answers(items.len());
+        Ok(())
     }
 
     pub(super) fn lose(&mut self, reason: &str, losses: &mut Vec<Loss>) {
