@@ -4,6 +4,7 @@
 
 pub mod chronicle;
 pub mod codec;
+pub mod composite;
 #[cfg(feature = "zenoh")]
 pub mod hosts;
 #[cfg(feature = "iceoryx2")]

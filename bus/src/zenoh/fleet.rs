@@ -32,6 +32,7 @@ pub struct ZenohFleet {
     post: Sender<Event>,
     session: Session,
     stall_limit: Duration,
+    waited: Duration,
     has_told_end: bool,
 }
 
@@ -99,6 +100,7 @@ impl ZenohFleet {
             post,
             session,
             stall_limit: STALL_LIMIT,
+            waited: Duration::ZERO,
             has_told_end: false,
         })
     }
@@ -159,6 +161,18 @@ impl ZenohFleet {
         Ok(())
     }
 
+    /// Waits until nobody is awaited any more, or until `deadline`.
+    fn wait_until(&mut self, answers: &mut Answers, deadline: Instant) -> Result<(), FleetError> {
+        let mut awaited = self.members.iter().filter(|member| member.is_awaited()).count();
+        while awaited > 0 {
+            match self.events.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
+                Ok(event) => awaited -= usize::from(self.take(&event, answers)?),
+                Err(_) => break,
+            }
+        }
+        Ok(())
+    }
+
     /// Takes in one event. Returns whether somebody is awaited no longer.
     fn take(&mut self, event: &Event, answers: &mut Answers) -> Result<bool, FleetError> {
         match event {
@@ -210,14 +224,43 @@ impl Fleet for ZenohFleet {
             let index = self.index(batch.auv)?;
             let member = &mut self.members[index];
             if member.is_alive {
-                member.send_next(&ToAuvRef::Sensed(&batch.items))?;
-                member.awaits = Awaits::Answers(batch.items.len());
+                member.send_batch(&batch.items)?;
             }
         }
         meanwhile();
+        let since = Instant::now();
         self.wait(&mut answers, self.stall_limit)?;
-        answers.acted.sort_by_key(|batch| batch.auv);
-        answers.losses.sort_by_key(|loss| loss.auv);
+        self.waited = since.elapsed();
+        answers.sort();
+        Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
+    }
+
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        let mut answers = Answers::default();
+        self.bury(&mut answers)?;
+        let mut unsent = Vec::new();
+        for batch in sensed.drain(..) {
+            let index = self.index(batch.auv)?;
+            let member = &mut self.members[index];
+            if member.is_awaited() {
+                unsent.push(batch);
+            } else if member.is_alive {
+                member.send_batch(&batch.items)?;
+            }
+        }
+        *sensed = unsent;
+        meanwhile();
+        self.wait_until(&mut answers, deadline)?;
+        answers.sort();
         Ok(answers)
     }
 

@@ -8,7 +8,7 @@ use super::down_key;
 use super::fleet::failed;
 use super::frame::{Kind, Up, write_down};
 use crate::lockstep::{Answers, Batch, FleetError, Loss};
-use crate::message::{AuvId, Born};
+use crate::message::{AuvId, Born, Sensed};
 use crate::protocol::{Dialect, Hello};
 use crate::wire::ToAuvRef;
 
@@ -66,6 +66,13 @@ impl Member {
     fn send(&self, message: &ToAuvRef<'_>) -> Result<(), FleetError> {
         let body = self.dialect.write(message).map_err(failed)?;
         self.down.put(write_down(self.sequence, &body)).wait().map_err(failed)
+    }
+
+    /// Sends what it sensed and awaits its answers.
+    pub(super) fn send_batch(&mut self, items: &[Sensed]) -> Result<(), FleetError> {
+        self.send_next(&ToAuvRef::Sensed(items))?;
+        self.awaits = Awaits::Answers(items.len());
+        Ok(())
     }
 
     pub(super) fn lose(&mut self, reason: &str, losses: &mut Vec<Loss>) {
