@@ -3,6 +3,9 @@
 //! The channel advances in windows. In each it sends every AUV that is due its ordered batch of [`Sensed`], and waits until
 //! each of them has answered with as many [`Acted`], or has died. Slowness is waited for and changes nothing.
 
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
 use thiserror::Error;
 
 use crate::message::{Acted, AuvId, Born, Sensed};
@@ -37,6 +40,14 @@ pub struct Answers {
     pub losses: Vec<Loss>,
 }
 
+impl Answers {
+    /// Puts what came from several places in the order of the AUVs.
+    pub(crate) fn sort(&mut self) {
+        self.acted.sort_by_key(|batch| batch.auv);
+        self.losses.sort_by_key(|loss| loss.auv);
+    }
+}
+
 /// The channel's end of a transport: all AUVs of a run.
 pub trait Fleet {
     /// Waits for every AUV to report in and tells each what it is. `born` is sorted by AUV. Those that die before they
@@ -51,19 +62,56 @@ pub trait Fleet {
         meanwhile: &mut dyn FnMut(),
     ) -> Result<Answers, FleetError>;
 
+    /// AUVs that were lost and have a place again, sorted: their births may follow, by [`born`](Self::born). Each is told once.
+    fn vacancies(&mut self) -> Vec<AuvId> {
+        Vec::new()
+    }
+
+    /// How long the last exchange waited for AUVs at work, `meanwhile` excluded; nothing where that is not known.
+    fn waited(&self) -> Duration {
+        Duration::ZERO
+    }
+
+    /// As [`exchange`](Self::exchange), for AUVs that may be late: waits until `deadline` at most, for those at work on earlier
+    /// batches as well, and brings back whatever is there, at most one batch of each. Batches of AUVs that are still at work are
+    /// not sent: they stay in `sensed` and can grow, each AUV's in one batch, until a later exchange takes them.
+    ///
+    /// # Errors
+    /// Silence is none here. [`FleetError::NoDeadlines`] from transports that can only wait.
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        let (_, _, _) = (sensed, deadline, meanwhile);
+        Err(FleetError::NoDeadlines)
+    }
+
     /// Tells every AUV that the run is over.
     fn end(&mut self);
 }
 
-/// An AUV's end of a transport.
+/// The end of a transport in a process of AUVs: usually one, at times several that share it.
 pub trait Link {
     /// The next message from the channel; blocks.
-    fn receive(&mut self) -> Result<ToAuv, LinkError>;
-    /// Answers the batch just received.
-    fn answer(&mut self, acted: Vec<Acted>) -> Result<(), LinkError>;
+    fn receive(&mut self) -> Result<ToProcess, LinkError>;
+    /// Answers the last batch that its AUV received. Batches of other AUVs may be received in between.
+    fn answer(&mut self, acted: Batch<Acted>) -> Result<(), LinkError>;
 }
 
-/// From the channel to one AUV.
+/// What a process of AUVs hears.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToProcess {
+    /// What one of its AUVs is.
+    Born(Box<Born>),
+    /// What one of its AUVs sensed.
+    Sensed(Batch<Sensed>),
+    /// The run is over, for all of them.
+    End,
+}
+
+/// From the channel to one AUV, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum ToAuv {
     /// What you are.
@@ -74,11 +122,9 @@ pub enum ToAuv {
     End,
 }
 
-/// From one AUV to the channel.
+/// From one AUV to the channel, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum FromAuv {
-    /// The process is up.
-    Hello,
     /// The answers to one batch.
     Acted(Vec<Acted>),
 }
@@ -89,18 +135,20 @@ pub trait Mind {
     fn step(&mut self, sensed: &Sensed) -> Acted;
 }
 
-/// Lives one AUV's life on a link: waits to be born, answers batches, ends when told.
+/// Lives the lives of a process's AUVs on a link: each waits to be born, answers batches, ends when told.
 pub fn live<M: Mind>(link: &mut dyn Link, be_born: impl Fn(&Born) -> M) -> Result<(), LinkError> {
-    let mut mind: Option<M> = None;
+    let mut minds: BTreeMap<AuvId, M> = BTreeMap::new();
     loop {
         match link.receive()? {
-            ToAuv::Born(born) => mind = Some(be_born(&born)),
-            ToAuv::Sensed(batch) => {
-                let Some(mind) = mind.as_mut() else { return Err(LinkError::NotBorn) };
-                let acted = batch.iter().map(|sensed| mind.step(sensed)).collect();
-                link.answer(acted)?;
+            ToProcess::Born(born) => {
+                minds.insert(born.auv, be_born(&born));
             }
-            ToAuv::End => return Ok(()),
+            ToProcess::Sensed(Batch { auv, items }) => {
+                let Some(mind) = minds.get_mut(&auv) else { return Err(LinkError::NotBorn { auv }) };
+                let acted = items.iter().map(|sensed| mind.step(sensed)).collect();
+                link.answer(Batch { auv, items: acted })?;
+            }
+            ToProcess::End => return Ok(()),
         }
     }
 }
@@ -132,19 +180,20 @@ pub enum FleetError {
         /// For how long.
         limit_s: u64,
     },
+    /// Somebody asked for deadlines of a transport that waits for every answer.
+    #[error("this transport waits for every answer, so it cannot run freely")]
+    NoDeadlines,
     /// The launcher asked to stop.
     #[error("interrupted")]
     Interrupted,
 }
 
-/// What stops an AUV's end of a transport.
+/// What stops the end of a transport in a process of AUVs.
 #[derive(Debug, Error)]
 pub enum LinkError {
     /// The transport could not be set up.
     #[error("could not join the {bus} bus: {cause}")]
     Setup {
-        /// Who.
-        auv: AuvId,
         /// Which transport.
         bus: &'static str,
         /// What its library said.
@@ -162,8 +211,11 @@ pub enum LinkError {
     #[error("a message from the channel could not be read: {0}")]
     Codec(#[from] crate::codec::CodecError),
     /// A batch came before birth.
-    #[error("the channel sent a batch before it sent what this AUV is")]
-    NotBorn,
+    #[error("the channel sent a batch before it sent what AUV {auv} is")]
+    NotBorn {
+        /// Who.
+        auv: AuvId,
+    },
 }
 
 fn list(auvs: &[AuvId]) -> String {

@@ -87,6 +87,11 @@ impl fmt::Debug for Frame {
 
 impl Serialize for Frame {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if serializer.is_human_readable() {
+            let digits = self.bytes().iter().flat_map(|byte| [byte >> 4, byte & 15]);
+            let text: String = digits.filter_map(|digit| char::from_digit(digit.into(), 16)).collect();
+            return serializer.serialize_str(&text);
+        }
         serializer.serialize_bytes(self.bytes())
     }
 }
@@ -98,12 +103,26 @@ impl<'de> Deserialize<'de> for Frame {
             type Value = Frame;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "at most {FRAME_BYTES_MAX} bytes")
+                write!(f, "at most {FRAME_BYTES_MAX} bytes, in text two hexadecimal digits each")
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Frame, E> {
+                let wrong = || E::invalid_value(de::Unexpected::Str(text), &self);
+                let mut bytes = Vec::with_capacity(FRAME_BYTES_MAX);
+                for pair in text.as_bytes().chunks(2).take(FRAME_BYTES_MAX + 1) {
+                    let &[high, low] = pair else { return Err(wrong()) };
+                    let digit = |of: u8| char::from(of).to_digit(16).ok_or_else(wrong);
+                    bytes.push((digit(high)? << 4 | digit(low)?) as u8);
+                }
+                self.visit_bytes(&bytes)
             }
 
             fn visit_bytes<E: de::Error>(self, bytes: &[u8]) -> Result<Frame, E> {
                 Frame::new(bytes).ok_or_else(|| E::invalid_length(bytes.len(), &self))
             }
+        }
+        if deserializer.is_human_readable() {
+            return deserializer.deserialize_str(Bytes);
         }
         deserializer.deserialize_bytes(Bytes)
     }
