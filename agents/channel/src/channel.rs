@@ -19,7 +19,7 @@ use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::check::{self, Check};
 use crate::digest::Digest;
-use crate::flock::Flock;
+use crate::flock::{Flock, Moment};
 use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::sound::{Told, Wavefront};
@@ -84,6 +84,9 @@ pub struct Channel {
     /// Memory of events that were chronicled, to be written anew.
     spare: Vec<Vec<Event>>,
     flock: Flock,
+    is_flock_watched: bool,
+    /// Moments of the window just advanced, and of the one accepted.
+    moments: [Vec<Moment>; 2],
     tally: Tally,
     digest: Digest,
 }
@@ -117,7 +120,7 @@ impl Channel {
         }
         Ok(Self {
             scenario: scenario.clone(),
-            tally: Tally::new(vehicles.len()),
+            tally: Tally::new(scenario),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
             places_m: Vec::new(),
@@ -130,6 +133,8 @@ impl Channel {
             chronicled: Vec::new(),
             spare: Vec::new(),
             flock: Flock::default(),
+            is_flock_watched: false,
+            moments: Default::default(),
             digest: Digest::default(),
         })
     }
@@ -137,6 +142,12 @@ impl Channel {
     /// What each AUV is told at birth, sorted by AUV.
     pub fn born(&self) -> Vec<Born> {
         self.vehicles.iter().map(|vehicle| vehicle.born.clone()).collect()
+    }
+
+    /// From now on the chronicle tells once a simulated second how the swarm moves and holds together. Nothing else changes, not the
+    /// digest either.
+    pub fn watch_flock(&mut self) {
+        self.is_flock_watched = true;
     }
 
     /// All AUVs in the order of their first ticks, so that neighbours in the order tend to be due together.
@@ -204,6 +215,8 @@ impl Channel {
         // Buffers go round: fresh ones would cost more than what is written into them.
         self.happened.clear();
         std::mem::swap(&mut self.happened, &mut self.tally.window);
+        let [advanced, accepted] = &mut self.moments;
+        accepted.append(advanced);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, apart from
@@ -214,6 +227,9 @@ impl Channel {
             _ => None,
         }));
         std::mem::swap(&mut self.chronicled, &mut self.happened);
+        let told =
+            |moment: Moment| Entry { at: moment.at, auv: AuvId(0), what: What::Flock(moment.figures()) };
+        self.chronicled.extend(self.moments[1].drain(..).map(told));
         self.chronicled.sort_by_cached_key(canonical_order);
         self.digest.update(&self.chronicled)?;
         Ok(&self.chronicled)
@@ -233,11 +249,7 @@ impl Channel {
 
     /// What the run amounts to, as far as it is chronicled.
     pub fn summary(&self) -> Summary {
-        let poses: Vec<_> = self.vehicles.iter().map(|vehicle| vehicle.body.at(self.now)).collect();
-        let positions_m: Vec<Vec3> = poses.iter().map(|pose| pose.position_m).collect();
-        let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
-        let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
-        let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
+        let flock = self.flock.last_moment(self.now, flying(&self.vehicles, self.now)).figures();
         let windows: Vec<_> = self.vehicles.iter().map(Vehicle::windows).collect();
         let in_flight = self.medium.in_flight();
         self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &windows)
@@ -393,6 +405,10 @@ impl Channel {
                 self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect();
             let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
             self.flock.sample(&positions_m, &length_m);
+            if self.is_flock_watched && Flock::is_second(at) {
+                let moment = self.flock.moment(at, flying(&self.vehicles, at));
+                self.moments[0].push(moment);
+            }
         }
     }
 
@@ -519,6 +535,14 @@ fn check_around(around: &Around, tick: &Tick, vehicles: &[Vehicle]) -> Option<Vi
     };
     let apart_m = neighbour.body.position_at(tick.at) - tick.pose.position_m;
     Check::of(Enclosure::Around).horizontal(&around.position_m, &apart_m).violation()
+}
+
+/// Position, velocity over ground and range of the modem of each AUV that lives.
+fn flying(vehicles: &[Vehicle], at: SimTime) -> impl Iterator<Item = (Vec3, Vec3, f64)> {
+    vehicles.iter().filter(|vehicle| vehicle.alive).map(move |vehicle| {
+        let pose = vehicle.body.at(at);
+        (pose.position_m, pose.ground_velocity_m_s, vehicle.born.modem.range_m)
+    })
 }
 
 /// (true time, vehicle, kind, index): entries of one vehicle, kind and moment keep the order in which they were told, but

@@ -10,7 +10,7 @@ use shoal_bus::summary::{
 };
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
-use shoal_scenario::model::Scenario;
+use shoal_scenario::model::{Controller, Scenario};
 
 use crate::accuracy::{self, Accuracy};
 use crate::assumption::assumptions;
@@ -32,6 +32,8 @@ pub struct Tally {
     heard: Vec<u64>,
     first_violations: Vec<(SimTime, AuvId, Violation)>,
     widths: Vec<Option<ReportWidths>>,
+    /// Where each AUV is to stay, and how far from it it was at its first and last tick.
+    stations: Vec<Option<(Vec3, Option<[f64; 2]>)>>,
     accuracy: Vec<Accuracy>,
     pings: Pings,
     lost: Vec<LostAgent>,
@@ -68,8 +70,14 @@ struct ReportWidths {
 }
 
 impl Tally {
-    /// Nothing counted yet, for so many AUVs.
-    pub fn new(auvs: usize) -> Self {
+    /// Nothing counted yet, of the AUVs of this scenario.
+    pub fn new(scenario: &Scenario) -> Self {
+        let auvs = scenario.auv_count() as usize;
+        let stations = scenario.groups.iter().flat_map(|group| {
+            let keeps = matches!(group.controller, Controller::Station { .. });
+            let station_m = move |index| group.start.place.point_m(index).filter(|_| keeps);
+            (0..group.count).map(move |index| Some((station_m(index)?.into(), None)))
+        });
         Self {
             window: Vec::new(),
             wakes: 0,
@@ -81,6 +89,7 @@ impl Tally {
             heard: vec![0; auvs],
             first_violations: Vec::new(),
             widths: vec![None; auvs],
+            stations: stations.collect(),
             accuracy: vec![Accuracy::default(); auvs],
             pings: Pings::default(),
             lost: Vec::new(),
@@ -149,6 +158,10 @@ impl Tally {
     /// An AUV reported what it believes; the truth at its tick is `position_m` and, true minus local time, `offset_s`.
     pub fn reported(&mut self, auv: AuvId, report: &Report, position_m: &Vec3, offset_s: f64) {
         self.accuracy[auv.0 as usize].reported(report, position_m, offset_s);
+        if let Some((station_m, off_m)) = &mut self.stations[auv.0 as usize] {
+            let now_m = (position_m - *station_m).norm();
+            off_m.get_or_insert([now_m; 2])[1] = now_m;
+        }
         // An unbounded report counts as the widest number there is: summaries are JSON, which has no infinity.
         let widths = [box_width(&report.position_m), report.clock_offset_s.width()];
         let now = widths.map(|width| if width.is_finite() { width } else { f64::MAX });
@@ -174,14 +187,18 @@ impl Tally {
         in_flight: u64,
         windows: &[(u64, u64)],
     ) -> Summary {
+        let over = |first: Vec<f64>, last: Vec<f64>| {
+            let end_max = last.iter().fold(0.0_f64, |a, &b| a.max(b));
+            Widths { start_median: median(first), end_median: median(last), end_max }
+        };
         let widths = |which: usize| {
             let pick = |of: fn(&ReportWidths) -> [f64; 2]| -> Vec<f64> {
                 self.widths.iter().flatten().map(|widths| of(widths)[which]).collect()
             };
-            let (first, last) = (pick(|widths| widths.first), pick(|widths| widths.last));
-            let end_max = last.iter().fold(0.0_f64, |a, &b| a.max(b));
-            Widths { start_median: median(first), end_median: median(last), end_max }
+            over(pick(|widths| widths.first), pick(|widths| widths.last))
         };
+        let off_m: Vec<[f64; 2]> = self.stations.iter().flatten().filter_map(|(_, off_m)| *off_m).collect();
+        let off = |which: usize| off_m.iter().map(|off_m| off_m[which]).collect();
         Summary {
             format: SUMMARY_FORMAT.to_owned(),
             scenario: scenario.name.clone(),
@@ -200,6 +217,7 @@ impl Tally {
             estimators: accuracy::lines(scenario, &self.accuracy),
             position_width_m: widths(0),
             clock_width_s: widths(1),
+            off_station_m: (!off_m.is_empty()).then(|| over(off(0), off(1))),
             pings: Pings { in_flight, ..self.pings },
             flock,
             agents: Agents { lost: self.lost.clone(), restarted: Vec::new() },
