@@ -4,6 +4,8 @@
 
 pub mod chronicle;
 pub mod codec;
+#[cfg(feature = "zenoh")]
+pub mod hosts;
 #[cfg(feature = "iceoryx2")]
 mod iceoryx;
 pub mod local;
