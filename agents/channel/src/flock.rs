@@ -20,27 +20,34 @@ pub const SAMPLE_NS: i64 = 100_000_000;
 #[derive(Default)]
 pub struct Flock {
     min_separation_m: Option<f64>,
-    /// Since the last moment that was watched.
+    /// Since it was last asked for.
     lately_m: Option<f64>,
     touching: BTreeSet<(u32, u32)>,
     collisions: u64,
 }
 
-/// The swarm at one moment.
+/// The AUVs that live, at one moment.
 #[derive(Clone, Debug, Default)]
-pub struct Moment {
-    /// True time.
-    pub at: SimTime,
-    /// Where each AUV is that lives, in metres.
-    pub positions_m: Vec<Vec3>,
-    /// How each of them moves over ground, in m/s.
-    pub velocities_m_s: Vec<Vec3>,
+pub struct Flying {
+    /// Where each is, in metres.
+    positions_m: Vec<Vec3>,
+    /// How each moves over ground, in m/s.
+    velocities_m_s: Vec<Vec3>,
     /// How far the modem of each is heard, in metres.
-    pub range_m: Vec<f64>,
-    /// Least distance between two bodies in the time that this moment stands for, in metres.
-    pub min_separation_m: Option<f64>,
-    /// Pairs that have collided so far.
-    pub collisions: u64,
+    range_m: Vec<f64>,
+}
+
+impl FromIterator<(Vec3, Vec3, f64)> for Flying {
+    /// From position in metres, velocity over ground in m/s, and range of the modem in metres, of each.
+    fn from_iter<I: IntoIterator<Item = (Vec3, Vec3, f64)>>(of: I) -> Self {
+        let mut flying = Self::default();
+        for (position_m, velocity_m_s, range_m) in of {
+            flying.positions_m.push(position_m);
+            flying.velocities_m_s.push(velocity_m_s);
+            flying.range_m.push(range_m);
+        }
+        flying
+    }
 }
 
 impl Flock {
@@ -85,32 +92,11 @@ impl Flock {
         self.touching = touching;
     }
 
-    /// A moment at which these AUVs live, standing for the time since the moment before; they come as position in metres, velocity
-    /// over ground in m/s, and range of the modem in metres.
-    pub fn moment(&mut self, at: SimTime, alive: impl Iterator<Item = (Vec3, Vec3, f64)>) -> Moment {
-        let min_separation_m = self.lately_m.take();
-        Moment { min_separation_m, ..self.last_moment(at, alive) }
-    }
-
-    /// As [`moment`](Self::moment), standing for the whole run.
-    pub fn last_moment(&self, at: SimTime, alive: impl Iterator<Item = (Vec3, Vec3, f64)>) -> Moment {
-        let (min_separation_m, collisions) = (self.min_separation_m, self.collisions);
-        let mut moment = Moment { at, min_separation_m, collisions, ..Moment::default() };
-        for (position_m, velocity_m_s, range_m) in alive {
-            moment.positions_m.push(position_m);
-            moment.velocities_m_s.push(velocity_m_s);
-            moment.range_m.push(range_m);
-        }
-        moment
-    }
-}
-
-impl Moment {
-    /// What it amounts to.
-    pub fn figures(&self) -> Figures {
-        let links = Links::between(&self.positions_m, &self.range_m);
+    /// The figures of a moment, with the separation of the whole run.
+    pub fn figures(&self, flying: &Flying) -> Figures {
+        let links = Links::between(&flying.positions_m, &flying.range_m);
         Figures {
-            polarization: polarization(&self.velocities_m_s),
+            polarization: polarization(&flying.velocities_m_s),
             min_separation_m: self.min_separation_m,
             collisions: self.collisions,
             connectivity: links.fraction(),
@@ -118,6 +104,12 @@ impl Moment {
             components: links.components(),
             largest_component: links.largest_component(),
         }
+    }
+
+    /// The figures of a moment, with the separation since this was last asked for.
+    pub fn figures_lately(&mut self, flying: &Flying) -> Figures {
+        let min_separation_m = self.lately_m.take();
+        Figures { min_separation_m, ..self.figures(flying) }
     }
 }
 

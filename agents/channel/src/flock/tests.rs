@@ -10,18 +10,18 @@ fn separation_is_the_closest_pair_and_a_touch_counts_once() {
     let mut flock = Flock::default();
     let far = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(5.0, 0.0, 0.0), Vec3::new(0.0, 4.0, 0.0)];
     flock.sample(&far, &[1.0; 3]);
-    let moment = |flock: &mut Flock| flock.moment(SimTime::ZERO, std::iter::empty());
-    assert_eq!(moment(&mut flock).min_separation_m, Some(4.0));
+    let lately = |flock: &mut Flock| flock.figures_lately(&Flying::default());
+    assert_eq!(lately(&mut flock).min_separation_m, Some(4.0));
     let near = [far[0], Vec3::new(0.5, 0.0, 0.0), far[2]];
     flock.sample(&near, &[1.0; 3]);
     flock.sample(&near, &[1.0; 3]);
     flock.sample(&far, &[1.0; 3]);
-    let lately = moment(&mut flock);
-    assert_eq!((lately.min_separation_m, lately.collisions), (Some(0.5), 1));
-    // A moment stands for the time since the one before, the last one for the run.
+    let figures = lately(&mut flock);
+    assert_eq!((figures.min_separation_m, figures.collisions), (Some(0.5), 1));
+    // The first stands for the time since it was asked for, the other for the run.
     flock.sample(&far, &[1.0; 3]);
-    assert_eq!(moment(&mut flock).min_separation_m, Some(4.0));
-    assert_eq!(flock.last_moment(SimTime::ZERO, std::iter::empty()).min_separation_m, Some(0.5));
+    assert_eq!(lately(&mut flock).min_separation_m, Some(4.0));
+    assert_eq!(flock.figures(&Flying::default()).min_separation_m, Some(0.5));
 }
 
 #[test]
@@ -33,9 +33,9 @@ fn alignment_and_connectivity_of_known_flocks() {
     let links = Links::between(&[Vec3::zeros(), Vec3::new(10.0, 0.0, 0.0)], &[10.0, 5.0]);
     assert_eq!((links.fraction(), links.components(), links.largest_component()), (0.5, 2, 1));
     assert_eq!(algebraic_connectivity(&links), Some(0.0));
-    let alone = Flock::default().last_moment(SimTime::ZERO, [(north, north, 9.0)].into_iter()).figures();
+    let alone = Flock::default().figures(&[(north, north, 9.0)].into_iter().collect());
     assert_eq!((alone.components, alone.largest_component, alone.algebraic_connectivity), (1, 1, Some(0.0)));
-    let nobody = Flock::default().last_moment(SimTime::ZERO, std::iter::empty()).figures();
+    let nobody = Flock::default().figures(&Flying::default());
     assert_eq!(
         (nobody.components, nobody.largest_component, nobody.algebraic_connectivity),
         (0, 0, Some(0.0))
