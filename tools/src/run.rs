@@ -13,7 +13,7 @@ use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
 use shoal_scenario::{OnCrash, Scenario};
 
-use crate::agent_process::check_commands;
+use crate::agent_process::{check_commands, needs_no_processes};
 use crate::cli::{Bus, RunArgs};
 use crate::drive::{Ending, Observer, Plan, drive};
 use crate::exit::Exit;
@@ -37,11 +37,8 @@ pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
         eprintln!("warning: {warning}");
     }
     check_commands(&scenario, &order)?;
-    if let (Bus::Local, Some(group)) = (order.bus, scenario.groups.iter().find(|of| of.command.is_some())) {
-        return Err(Failure::usage(format!(
-            "the AUVs of group `{}` are programs of their own, and the local bus has no processes: use `--bus iceoryx2` or `--bus zenoh`",
-            group.name
-        )));
+    if order.bus == Bus::Local {
+        needs_no_processes(&scenario, "use `--bus iceoryx2` or `--bus zenoh`")?;
     }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;

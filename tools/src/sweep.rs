@@ -18,6 +18,7 @@ use shoal_scenario::{Scenario, load};
 
 pub use axes::{Axis, Seeds};
 
+use crate::agent_process::needs_no_processes;
 use crate::cli::{Pace, SweepArgs};
 use crate::drive::{Ending, Plan, drive};
 use crate::exit::Exit;
@@ -115,6 +116,7 @@ fn exit(rows: &[Row], is_interrupted: bool) -> Exit {
 
 /// One run without processes; `None` when the user stopped it.
 fn carry_out(scenario: &Scenario, interrupted: &AtomicBool) -> Result<Option<Summary>, Failure> {
+    needs_no_processes(scenario, "sweep it with `shoal run` in a loop")?;
     let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut fleet = Local::new(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
