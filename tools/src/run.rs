@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use shoal_auv::Auv;
 use shoal_bus::local::Local;
@@ -110,7 +110,11 @@ fn in_processes(
             }
             FromChannel::Progress(sim_s) => bar.advance(sim_s),
             FromChannel::Note(note) => bar.note(&note),
-            FromChannel::Failed { message } => return Err(Failure { exit: Exit::Failed, message }),
+            FromChannel::Failed { message } => {
+                // What the user's programs said may be why.
+                show_words(&swarm.wait(Duration::ZERO), bar);
+                return Err(Failure { exit: Exit::Failed, message });
+            }
             FromChannel::Done(mut done) => {
                 done.summary.startup_s = startup_s;
                 channel.wait();
@@ -124,9 +128,7 @@ fn in_processes(
                         };
                     }
                 }
-                for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
-                    bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
-                }
+                show_words(&endings, bar);
                 for ending in endings.iter().filter(|ending| ending.was_killed) {
                     let lost = &done.summary.agents.lost;
                     if !lost.iter().any(|lost| ending.seat.auvs.contains(&lost.auv)) {
@@ -139,6 +141,13 @@ fn in_processes(
                 return Ok(*done);
             }
         }
+    }
+}
+
+/// Shows what the user's programs wrote.
+fn show_words(endings: &[ProcessEnding], bar: &Bar) {
+    for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
+        bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
     }
 }
 
