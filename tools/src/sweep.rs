@@ -31,6 +31,7 @@ use shoal_scenario::{Scenario, load};
 
 pub use axes::{Axis, Seeds};
 
+use crate::agent_process::needs_no_processes;
 use crate::cli::{Changes, Pace, SweepArgs};
 use crate::drive::{Ending, Plan, drive};
 use crate::exit::Exit;
@@ -286,6 +287,7 @@ fn carry_out(scenario: &Scenario, interrupted: &AtomicBool) -> Result<Option<Sum
     if interrupted.load(Ordering::Acquire) {
         return Ok(None);
     }
+    needs_no_processes(scenario, "sweep it with `shoal run` in a loop")?;
     let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut fleet = Local::new(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
