@@ -137,7 +137,7 @@ fn six_circles_surface_where_printed_and_meet() {
 fn an_unknown_name_is_answered_with_the_nearest() {
     let error = load("swarm300").unwrap_err();
     assert!(matches!(error, LoadError::Unknown { similar: Some("swarm-300"), .. }));
-    insta::assert_snapshot!(error, @"there is no scenario `swarm300`, neither in the library nor as a file: did you mean `swarm-300`?; the library has two-circles, six-circles, six-auvs-3d, sea-trial, swarm-3, kidnapped, unknown-start, surface-bounce, echoes, thermocline, crowded-band, data-incest, sweep-16, swarm-300, swarm-1000, or give the path of a .toml file");
+    insta::assert_snapshot!(error, @"there is no scenario `swarm300`, neither in the library nor as a file: did you mean `swarm-300`?; the library has two-circles, six-circles, six-auvs-3d, sea-trial, swarm-3, kidnapped, unknown-start, surface-bounce, echoes, thermocline, crowded-band, data-incest, sweep-16, swarm-300, swarm-1000, seismic-grid-3000, swarm-10000, or give the path of a .toml file");
 }
 
 #[test]

@@ -165,10 +165,22 @@ fn cores() -> usize {
 fn read(source_name: &str, text: &str, axes: &[Axis], changes: &Changes) -> Vec<Combination> {
     let of = |settings: Vec<Setting>| {
         let scenario = with_settings(source_name, text, &settings)
-            .and_then(|(name, text)| scenario(&name, &text, None, changes));
+            .and_then(|(name, text)| scenario(&name, &text, None, changes))
+            .and_then(without_commands);
         Combination { settings, scenario }
     };
     combinations(axes).into_iter().map(of).collect()
+}
+
+/// The scenario, unless some of its AUVs are programs of their own, which have no place here.
+fn without_commands(scenario: Scenario) -> Result<Scenario, Failure> {
+    match scenario.groups.iter().find(|group| group.command.is_some()) {
+        None => Ok(scenario),
+        Some(group) => Err(Failure::usage(format!(
+            "the AUVs of group `{}` are programs of their own, and a sweep has no processes: remove its `command`, or use `shoal run`",
+            group.name
+        ))),
+    }
 }
 
 /// Every combination that is a scenario with every seed, in the order of the table.

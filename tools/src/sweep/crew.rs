@@ -20,6 +20,12 @@ pub fn side_by_side<T: Sync, R: Send>(
             let sender = sender.clone();
             scope.spawn(|| {
                 let sender = sender;
+                // What a task does side by side stays in one thread: the other cores have tasks of their own.
+                let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+                let carry_out = |task| match &alone {
+                    Ok(alone) => alone.install(|| carry_out(task)),
+                    Err(_) => carry_out(task),
+                };
                 while let Some((index, task)) = {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     tasks.get(index).map(|task| (index, task))

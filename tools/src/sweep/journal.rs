@@ -182,7 +182,8 @@ mod tests {
     fn a_file_cut_anywhere_gives_all_runs_before_the_cut_and_goes_on() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("runs");
-        let (mut journal, none) = Journal::open(&path, &header()).unwrap();
+        let header = header();
+        let (mut journal, none) = Journal::open(&path, &header).unwrap();
         assert!(none.is_empty());
         (1..=3).for_each(|seed| journal.append(&entry(seed)).unwrap());
         drop(journal);
@@ -191,7 +192,7 @@ mod tests {
         assert_eq!(ends.len(), 4);
         for length in 0..=bytes.len() {
             std::fs::write(&path, &bytes[..length]).unwrap();
-            let (mut journal, found) = Journal::open(&path, &header()).unwrap();
+            let (mut journal, found) = Journal::open(&path, &header).unwrap();
             let kept = ends.iter().filter(|&&end| end <= length).count().saturating_sub(1);
             assert!(found.into_iter().eq((1..=kept as u64).map(entry)), "cut at {length}");
             (kept as u64 + 1..=3).for_each(|seed| journal.append(&entry(seed)).unwrap());
