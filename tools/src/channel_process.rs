@@ -66,7 +66,10 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
     let scenario = order.scenario()?;
     let mut channel = Channel::new(&scenario).map_err(Failure::failed)?;
     let recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, &scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, &scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let seats = Seat::of_run(&order, &scenario);

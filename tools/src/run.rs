@@ -162,7 +162,10 @@ fn in_this_program(
     let began = Instant::now();
     let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let mut fleet = Local::on_all_cores(Auv::new);
