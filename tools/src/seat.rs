@@ -19,7 +19,10 @@ pub struct Seat {
 impl Seat {
     /// The seats of a run, in the order of their AUVs: every AUV has one.
     pub fn of_run(order: &Order, scenario: &Scenario) -> Vec<Self> {
-        let each = order.auvs_per_process.get();
+        Self::seated(scenario, order.auvs_per_process.get())
+    }
+
+    fn seated(scenario: &Scenario, each: u32) -> Vec<Self> {
         let mut seats: Vec<Self> = Vec::new();
         let mut first = 0;
         for group in &scenario.groups {
@@ -56,5 +59,25 @@ pub fn name(auvs: &Range<u32>) -> String {
     match auvs.len() {
         1 => format!("AUV {}", auvs.start),
         _ => format!("AUVs {}..{}", auvs.start, auvs.end),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn programs_of_the_user_sit_alone() {
+        let text = "name = \"mixed\"\nduration_s = 1\nenvironment.area_m = [[0, 99], [0, 99], [-9, 0]]\n\
+            [[group]]\nname = \"a\"\ncount = 1\n[[group]]\nname = \"b\"\ncount = 4\n\
+            [[group]]\nname = \"c\"\ncount = 2\ncommand = [\"c\"]\n[[group]]\nname = \"d\"\ncount = 3\n";
+        let scenario = shoal_scenario::parse("mixed.toml", text).unwrap();
+        let seats = |each: u32| {
+            let seats = Seat::seated(&scenario, each);
+            seats.into_iter().map(|seat| (seat.auvs, seat.command.is_some())).collect::<Vec<_>>()
+        };
+        let expected = [(0..3, false), (3..5, false), (5..6, true), (6..7, true), (7..10, false)];
+        assert_eq!(seats(3), expected);
+        assert_eq!(seats(1).len(), 10);
     }
 }
