@@ -18,6 +18,7 @@ use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::check::{self, Check};
+use crate::deadlines::{Deadlines, remembered_from};
 use crate::digest::Digest;
 use crate::flock::Flock;
 use crate::grid::Grid;
@@ -86,6 +87,10 @@ pub struct Channel {
     flock: Flock,
     tally: Tally,
     digest: Digest,
+    /// Only where AUVs run freely.
+    deadlines: Option<Deadlines>,
+    /// The past before this is forgotten.
+    remembered: SimTime,
 }
 
 impl Channel {
@@ -131,6 +136,8 @@ impl Channel {
             spare: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
+            deadlines: None,
+            remembered: SimTime::ZERO,
         })
     }
 
@@ -173,8 +180,12 @@ impl Channel {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
         self.places_m.clear();
+        self.remembered = match &self.deadlines {
+            Some(_) => remembered_from(&self.vehicles, self.now),
+            None => self.now,
+        };
         for vehicle in &mut self.vehicles {
-            vehicle.forget_before(self.now);
+            vehicle.forget_before(self.remembered);
             vehicle.body.integrate(to);
             self.places_m.push(vehicle.body.position_at(self.now));
         }
@@ -204,6 +215,15 @@ impl Channel {
         // Buffers go round: fresh ones would cost more than what is written into them.
         self.happened.clear();
         std::mem::swap(&mut self.happened, &mut self.tally.window);
+    }
+
+    /// As [`accept`](Channel::accept), for AUVs that run freely: answers may be to earlier windows, or come later. `by` is the true
+    /// time that the wall clock stands for; a tick whose answer is not in by its reaction time counts as a miss. What was
+    /// decided too late takes effect now, pings whose time has passed are lost as `late`, and reports are checked against the
+    /// truth of their ticks.
+    pub fn accept_late(&mut self, answers: Answers, by: SimTime) {
+        self.deadlines.get_or_insert_default().judge(&mut self.vehicles, by.max(self.now));
+        self.accept(answers);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, apart from
@@ -240,7 +260,10 @@ impl Channel {
         let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
         let windows: Vec<_> = self.vehicles.iter().map(Vehicle::windows).collect();
         let in_flight = self.medium.in_flight();
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &windows)
+        let summary =
+            self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &windows);
+        let free_run = self.deadlines.as_ref().map(|deadlines| deadlines.summary(&self.vehicles));
+        Summary { reproducible: summary.reproducible && free_run.is_none(), free_run, ..summary }
     }
 
     /// All pings that leave before `to`.
@@ -409,7 +432,9 @@ impl Channel {
         let wake = vehicle.born.wake;
         let takes_effect = tick.stamp + wake.reaction_ns;
         let velocity_m_s = Vector3::from(acted.setpoint.velocity_m_s);
-        vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
+        // In lockstep no answer is late.
+        let told_at = tick.at.max(self.accepted);
+        vehicle.body.steer(vehicle.clock.reaches(takes_effect).max(self.now), velocity_m_s);
         let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
         let report = &acted.report;
         let (promises, excuse) = (promises(&vehicle.born), excuse(vehicle, tick.at, tick.at));
@@ -422,10 +447,10 @@ impl Channel {
                 .position(&report.slice.position_m, &tick.between_position_m)
                 .time(&report.slice.clock_offset_s, tick.between_offset_s)
                 .violation();
-            self.tally.check(auv, tick.at, at_tick, excuse);
-            self.tally.check(auv, tick.at, between_ticks, excuse);
+            self.tally.check(auv, told_at, at_tick, excuse);
+            self.tally.check(auv, told_at, between_ticks, excuse);
             if report.emptied.is_some() {
-                self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), excuse);
+                self.tally.check(auv, told_at, Some(check::nothing(Enclosure::Emptied)), excuse);
                 if let Some(after_ns) = vehicle.notices(tick.at) {
                     self.tally.noticed(after_ns);
                 }
@@ -433,21 +458,22 @@ impl Channel {
         }
         self.tally.reported(auv, report, &tick.pose.position_m, offset_s);
         for (index, ping) in acted.pings.iter().enumerate() {
-            if ping.at < takes_effect {
+            if ping.at < takes_effect || vehicle.clock.reaches(ping.at) < self.now {
                 // It never left, so it has no number but its place in the answer.
                 let sequence = index as u32;
                 let fate = Fate::lost(None, LossReason::Late, 0.0);
-                self.tally.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
+                self.tally.traffic(auv, Traffic { at: told_at, from: auv, sequence, fate });
             } else {
                 vehicle.plan(ping.clone(), tick.at);
             }
         }
-        for around in report.around.iter().filter(|_| promises) {
+        let is_remembered = tick.at >= self.remembered;
+        for around in report.around.iter().filter(|_| promises && is_remembered) {
             let violation = check_around(around, &tick, &self.vehicles);
             let excuse = excuse_around(auv, around, tick.at, &self.vehicles).or(excuse);
-            self.tally.check(auv, tick.at, violation, excuse);
+            self.tally.check(auv, told_at, violation, excuse);
         }
-        self.tally.happened(tick.at, auv, What::Acted(acted));
+        self.tally.happened(told_at, auv, What::Acted(acted));
         Ok(())
     }
 

@@ -204,6 +204,8 @@ impl Tally {
             flock,
             agents: Agents { lost: self.lost.clone(), restarted: Vec::new() },
             memory: None,
+            timings: None,
+            free_run: None,
         }
     }
 
