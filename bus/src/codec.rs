@@ -59,9 +59,14 @@ pub enum CodecError {
 /// ```
 pub fn encode<T: Serialize>(message: &T) -> Result<Vec<u8>, CodecError> {
     let mut bytes = Vec::with_capacity(USUAL_MESSAGE_BYTES);
-    bytes.extend(FORMAT.to_le_bytes());
-    encode_bare_into(message, &mut bytes)?;
+    encode_into(message, &mut bytes)?;
     Ok(bytes)
+}
+
+/// Appends what [`encode`] makes of `message` to `bytes`.
+pub fn encode_into<T: Serialize>(message: &T, bytes: &mut Vec<u8>) -> Result<(), CodecError> {
+    bytes.extend(FORMAT.to_le_bytes());
+    encode_bare_into(message, bytes)
 }
 
 /// Decodes what [`encode`] made; every byte must be used.

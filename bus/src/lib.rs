@@ -5,6 +5,8 @@
 pub mod chronicle;
 pub mod codec;
 pub mod composite;
+#[cfg(feature = "zenoh")]
+pub mod hosts;
 #[cfg(feature = "iceoryx2")]
 mod iceoryx;
 pub mod local;

@@ -3,6 +3,7 @@
 //! The channel advances in windows. In each it sends every AUV that is due its ordered batch of [`Sensed`], and waits until
 //! each of them has answered with as many [`Acted`], or has died. Slowness is waited for and changes nothing.
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use thiserror::Error;
@@ -67,8 +68,8 @@ pub trait Fleet {
     }
 
     /// As [`exchange`](Self::exchange), for AUVs that may be late: waits until `deadline` at most, for those at work on earlier
-    /// batches as well, and brings back whatever is there, at most one batch of each. Batches of AUVs that are still at work are
-    /// not sent: they stay in `sensed` and can grow, each AUV's in one batch, until a later exchange takes them.
+    /// batches as well, and brings back whatever is there. Batches of AUVs that are still at work are not sent: they stay in
+    /// `sensed`, in which each AUV has one batch at most, and can grow until a later exchange takes them.
     ///
     /// # Errors
     /// Silence is none here. [`FleetError::NoDeadlines`] from transports that can only wait.
@@ -82,19 +83,35 @@ pub trait Fleet {
         Err(FleetError::NoDeadlines)
     }
 
+    /// AUVs that were lost and have a place again, sorted: their births may follow, by [`born`](Self::born). Each is told once.
+    fn vacancies(&mut self) -> Vec<AuvId> {
+        Vec::new()
+    }
+
     /// Tells every AUV that the run is over.
     fn end(&mut self);
 }
 
-/// An AUV's end of a transport.
+/// The end of a transport in a process of AUVs: usually one, at times several that share it.
 pub trait Link {
     /// The next message from the channel; blocks.
-    fn receive(&mut self) -> Result<ToAuv, LinkError>;
-    /// Answers the batch just received.
-    fn answer(&mut self, acted: Vec<Acted>) -> Result<(), LinkError>;
+    fn receive(&mut self) -> Result<ToProcess, LinkError>;
+    /// Answers the last batch that its AUV received. Batches of other AUVs may be received in between.
+    fn answer(&mut self, acted: Batch<Acted>) -> Result<(), LinkError>;
 }
 
-/// From the channel to one AUV.
+/// What a process of AUVs hears.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToProcess {
+    /// What one of its AUVs is.
+    Born(Box<Born>),
+    /// What one of its AUVs sensed.
+    Sensed(Batch<Sensed>),
+    /// The run is over, for all of them.
+    End,
+}
+
+/// From the channel to one AUV, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum ToAuv {
     /// What you are.
@@ -105,7 +122,7 @@ pub enum ToAuv {
     End,
 }
 
-/// From one AUV to the channel.
+/// From one AUV to the channel, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum FromAuv {
     /// The process is up.
@@ -120,18 +137,20 @@ pub trait Mind {
     fn step(&mut self, sensed: &Sensed) -> Acted;
 }
 
-/// Lives one AUV's life on a link: waits to be born, answers batches, ends when told.
+/// Lives the lives of a process's AUVs on a link: each waits to be born, answers batches, ends when told.
 pub fn live<M: Mind>(link: &mut dyn Link, be_born: impl Fn(&Born) -> M) -> Result<(), LinkError> {
-    let mut mind: Option<M> = None;
+    let mut minds: BTreeMap<AuvId, M> = BTreeMap::new();
     loop {
         match link.receive()? {
-            ToAuv::Born(born) => mind = Some(be_born(&born)),
-            ToAuv::Sensed(batch) => {
-                let Some(mind) = mind.as_mut() else { return Err(LinkError::NotBorn) };
-                let acted = batch.iter().map(|sensed| mind.step(sensed)).collect();
-                link.answer(acted)?;
+            ToProcess::Born(born) => {
+                minds.insert(born.auv, be_born(&born));
             }
-            ToAuv::End => return Ok(()),
+            ToProcess::Sensed(Batch { auv, items }) => {
+                let Some(mind) = minds.get_mut(&auv) else { return Err(LinkError::NotBorn { auv }) };
+                let acted = items.iter().map(|sensed| mind.step(sensed)).collect();
+                link.answer(Batch { auv, items: acted })?;
+            }
+            ToProcess::End => return Ok(()),
         }
     }
 }
@@ -171,14 +190,12 @@ pub enum FleetError {
     Interrupted,
 }
 
-/// What stops an AUV's end of a transport.
+/// What stops the end of a transport in a process of AUVs.
 #[derive(Debug, Error)]
 pub enum LinkError {
     /// The transport could not be set up.
     #[error("could not join the {bus} bus: {cause}")]
     Setup {
-        /// Who.
-        auv: AuvId,
         /// Which transport.
         bus: &'static str,
         /// What its library said.
@@ -196,8 +213,11 @@ pub enum LinkError {
     #[error("a message from the channel could not be read: {0}")]
     Codec(#[from] crate::codec::CodecError),
     /// A batch came before birth.
-    #[error("the channel sent a batch before it sent what this AUV is")]
-    NotBorn,
+    #[error("the channel sent a batch before it sent what AUV {auv} is")]
+    NotBorn {
+        /// Who.
+        auv: AuvId,
+    },
 }
 
 fn list(auvs: &[AuvId]) -> String {

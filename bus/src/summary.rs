@@ -264,9 +264,9 @@ pub struct Flock {
 /// AUVs that did not make it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Agents {
-    /// Those whose process ended.
+    /// Those whose process ended, and each time that it did.
     pub lost: Vec<LostAgent>,
-    /// Those that were born again.
+    /// Those that were born again, when, and how they had ended before.
     pub restarted: Vec<LostAgent>,
 }
 
@@ -286,7 +286,7 @@ pub struct LostAgent {
 /// Memory of the processes, read at the end of the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Memory {
-    /// Median proportional set size of a sample of AUV processes, in KiB.
+    /// Median proportional set size per AUV of a sample of their processes, in KiB.
     pub auv_pss_kib_median: u64,
     /// Resident set of the channel, in KiB.
     pub channel_rss_kib: u64,

@@ -35,6 +35,7 @@ macro_rules! broken {
 }
 
 broken! {
+    outliers_impossible: "outliers-impossible",
     syntax: "syntax",
     unknown_key: "unknown-key",
     wrong_types: "wrong-types",

@@ -81,8 +81,26 @@ fn windows(
         if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {
             return Ok(Ending::Aborted(loss));
         }
+        if !revive(channel, fleet)? {
+            return Ok(Ending::Interrupted);
+        }
     }
     Ok(Ending::Complete)
+}
+
+/// Gives those a new life whom the fleet can carry again. `false`: interrupted.
+fn revive(channel: &mut Channel, fleet: &mut dyn Fleet) -> Result<bool, Failure> {
+    let vacancies = fleet.vacancies();
+    if vacancies.is_empty() {
+        return Ok(true);
+    }
+    let born = channel.revive(&vacancies);
+    match fleet.born(&born) {
+        Ok(losses) => channel.stillborn(losses),
+        Err(FleetError::Interrupted) => return Ok(false),
+        Err(error) => return Err(Failure::failed(error)),
+    }
+    Ok(true)
 }
 
 /// Tells the observers what happened in the window last accepted.

@@ -60,7 +60,7 @@ fn main() {
                 None => String::new(),
             };
             println!(
-                r#"{{"schema":"shoal.bench/1","name":"{name}","value":{ping_ns:.0},"unit":"ns/ping","whole":{whole_ns:.0},"neighbours":{neighbours:.1},"growth":{growth:.2}{goal}{beside}}}"#
+                r#"{{"format":"shoal.bench/1","name":"{name}","value":{ping_ns:.0},"unit":"ns/ping","whole":{whole_ns:.0},"neighbours":{neighbours:.1},"growth":{growth:.2}{goal}{beside}}}"#
             );
             if level == "ideal" {
                 ideal_ns = Some(ping_ns);

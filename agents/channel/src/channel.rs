@@ -1,5 +1,7 @@
 //! The channel: the whole truth of a run, advanced window by window.
 
+mod rebirth;
+
 use std::sync::Arc;
 
 use nalgebra::Vector3;

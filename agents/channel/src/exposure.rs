@@ -19,6 +19,8 @@ pub struct Exposure {
     windows_kept: u64,
     /// True time of the tick at which it had been told too many, once it has.
     pub broken_since: Option<SimTime>,
+    /// The same of former lives, and when each ended.
+    past: Vec<(SimTime, SimTime)>,
     /// True time of the tick at which it was told the first, once it was.
     pub deceived_since: Option<SimTime>,
 }
@@ -41,8 +43,22 @@ impl Exposure {
             windows: 0,
             windows_kept: 0,
             broken_since: None,
+            past: Vec::new(),
             deceived_since: None,
         }
+    }
+
+    /// A new mind takes the place of the old one, told nothing yet.
+    pub fn begin_again(&mut self, now: SimTime) {
+        self.last.clear();
+        self.past.extend(self.broken_since.take().map(|since| (since, now)));
+        self.deceived_since = None;
+    }
+
+    /// Whether it had been told too many by its tick at `tick`, in the life that this tick belongs to.
+    pub fn is_broken_at(&self, tick: SimTime) -> bool {
+        self.broken_since.is_some_and(|since| since <= tick)
+            || self.past.iter().any(|&(since, ended)| since <= tick && tick < ended)
     }
 
     /// It is told one more ping at its tick at `tick`.

@@ -35,6 +35,7 @@ pub struct Tally {
     accuracy: Vec<Accuracy>,
     pings: Pings,
     lost: Vec<LostAgent>,
+    restarted: Vec<LostAgent>,
 }
 
 /// Why a violation is counted apart.
@@ -84,6 +85,7 @@ impl Tally {
             accuracy: vec![Accuracy::default(); auvs],
             pings: Pings::default(),
             lost: Vec::new(),
+            restarted: Vec::new(),
         }
     }
 
@@ -164,6 +166,13 @@ impl Tally {
         self.happened(at, auv, What::Ended(reason));
     }
 
+    /// An AUV that was lost is born again.
+    pub fn restarted(&mut self, at: SimTime, auv: AuvId) {
+        let last = self.lost.iter().rfind(|lost| lost.auv == auv.0);
+        self.restarted.extend(last.map(|lost| LostAgent { time_s: at.as_s(), ..lost.clone() }));
+        self.restarted.sort_by_key(|restarted| restarted.auv);
+    }
+
     /// What the run amounts to at `now`.
     pub fn summary(
         &self,
@@ -202,7 +211,7 @@ impl Tally {
             clock_width_s: widths(1),
             pings: Pings { in_flight, ..self.pings },
             flock,
-            agents: Agents { lost: self.lost.clone(), restarted: Vec::new() },
+            agents: Agents { lost: self.lost.clone(), restarted: self.restarted.clone() },
             memory: None,
             timings: None,
             free_run: None,

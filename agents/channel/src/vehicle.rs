@@ -2,7 +2,9 @@
 
 use std::collections::VecDeque;
 
-use shoal_bus::message::{Acted, AuvId, Born, Event, MediumAccess, PlannedPing, Sense, Sensed};
+use shoal_bus::message::{
+    Acted, AuvId, Born, Bounds, BoundsBox, Event, MediumAccess, PlannedPing, Sense, Sensed,
+};
 use shoal_bus::ping::Frame;
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_scenario::LISTEN_MAX_NS;
@@ -11,7 +13,7 @@ use shoal_scenario::model::FalseArrivals;
 use crate::bearing::{BearingArray, Incidence};
 use crate::birth::Newborn;
 use crate::body::{Body, Pose, Vec3};
-use crate::clock::TrueClock;
+use crate::clock::{STAMP_NS, TrueClock};
 use crate::draw::Draws;
 use crate::exposure::Exposure;
 use crate::sensors::Sensors;
@@ -48,9 +50,13 @@ pub struct Vehicle {
     timestamps: Draws,
     timestamp_error_s: f64,
     bearings: Option<BearingArray>,
+    /// Local time of tick 0, in whichever life that was.
+    first_tick: LocalTime,
     next_tick: u64,
     next_tick_at: SimTime,
     last_tick_at: SimTime,
+    /// True time of its last birth.
+    pub(crate) born_at: SimTime,
     /// The truth at the moment between ticks, once that moment is over.
     between: Option<(Vec3, f64)>,
     heard: Vec<HeardPing>,
@@ -117,7 +123,8 @@ impl Vehicle {
         let Newborn { mut clock, body, sensors, arrivals, bearings, outliers, false_arrivals, born } =
             newborn;
         let exposure = Exposure::new(&born.orders.estimator);
-        let next_tick_at = clock.reaches(born.wake.first_tick);
+        let first_tick = born.wake.first_tick;
+        let next_tick_at = clock.reaches(first_tick);
         Self {
             born,
             body,
@@ -135,9 +142,11 @@ impl Vehicle {
             timestamps: arrivals,
             timestamp_error_s,
             bearings,
+            first_tick,
             next_tick: 0,
             next_tick_at,
             last_tick_at: SimTime::ZERO,
+            born_at: SimTime::ZERO,
             between: None,
             heard: Vec::new(),
             held: Vec::new(),
@@ -159,7 +168,7 @@ impl Vehicle {
 
     /// Why no promise covers what it states of itself at its tick at `tick`: it was told more that is false than it was to expect.
     pub fn is_exposed_at(&self, tick: SimTime) -> bool {
-        self.exposure.broken_since.is_some_and(|since| since <= tick)
+        self.exposure.is_broken_at(tick)
     }
 
     /// Whether it was told anything false until its tick at `tick`.
@@ -290,7 +299,7 @@ impl Vehicle {
     /// What it senses at its next tick, which comes before the horizon that its body is integrated to.
     pub fn sense(&mut self) -> (Tick, Sensed) {
         let wake = self.born.wake;
-        let stamp = wake.first_tick + self.next_tick as i64 * wake.period_ns;
+        let stamp = self.stamp_of(self.next_tick);
         let at = self.next_tick_at;
         let pose = self.body.at(at);
         let (between_position_m, between_offset_s) =
@@ -345,6 +354,36 @@ impl Vehicle {
         self.answered.clear();
         let rest_from = self.body.last_setpoint().map_or(at, |last| last.max(at));
         self.body.steer(rest_from, Vec3::zeros());
+    }
+
+    /// Begins a new life at `now`, which is the end of the last window, at a place that lies in `prior_position_m`: its clock, its
+    /// body, its sensors and its schedule go on, its mind knows nothing. Pings that are booked still leave.
+    pub(crate) fn begin_again(&mut self, now: SimTime, prior_position_m: BoundsBox) {
+        self.alive = true;
+        self.exposure.begin_again(now);
+        for of in self.kidnappings.iter_mut().filter(|of| self.body.leapt_between(of.at, now)) {
+            of.noticed.get_or_insert(now);
+        }
+        self.between = None;
+        self.last_tick_at = now;
+        while self.next_tick_at < now {
+            self.next_tick += 1;
+            self.next_tick_at = self.clock.reaches(self.stamp_of(self.next_tick));
+        }
+        // Since the last birth the clock has gained or lost so much at most; what it reads and what that means are rounded.
+        let gained_s = self.born.clock.drift * ((now - self.born_at) as f64 * 1e-9) * (1.0 + 1e-9);
+        let slack_s = gained_s + 4.0 * STAMP_NS as f64 * 1e-9;
+        let Bounds { lower, upper } = self.born.clock.offset_s;
+        self.born.clock.offset_s = Bounds::new(lower - slack_s, upper + slack_s);
+        self.born.birth = self.clock.read(now);
+        self.born.wake.first_tick = self.stamp_of(self.next_tick);
+        self.born.prior_position_m = prior_position_m;
+        self.born_at = now;
+    }
+
+    /// Local time of a tick.
+    fn stamp_of(&self, tick: u64) -> LocalTime {
+        self.first_tick + tick as i64 * self.born.wake.period_ns
     }
 
     /// Forgets the past that no later window of true time from `now` on asks for.

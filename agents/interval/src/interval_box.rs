@@ -49,7 +49,8 @@ impl<const N: usize> IntervalBox<N> {
     /// Whether no vector is in the box.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.sides.iter().any(|side| side.is_empty())
+        // Without a branch for each side.
+        self.sides.iter().fold(false, |empty, side| empty | side.is_empty())
     }
 
     /// Whether every side lies between two finite numbers. The empty box does.
@@ -66,7 +67,11 @@ impl<const N: usize> IntervalBox<N> {
     /// The vectors that are in both boxes; also written `x & y`. Exact.
     #[inline]
     pub fn intersection(&self, other: &IntervalBox<N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] & other.sides[axis]) }.or_empty()
+        let mut sides = self.sides;
+        for (side, other) in sides.iter_mut().zip(&other.sides) {
+            *side = side.common_bounds(*other);
+        }
+        IntervalBox { sides }.or_empty()
     }
 
     /// The smallest box that holds both; also written `x | y`. Exact.
@@ -78,7 +83,11 @@ impl<const N: usize> IntervalBox<N> {
         if other.is_empty() {
             return *self;
         }
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] | other.sides[axis]) }
+        let mut sides = self.sides;
+        for (side, other) in sides.iter_mut().zip(&other.sides) {
+            *side = side.hull(*other);
+        }
+        IntervalBox { sides }
     }
 
     /// The sides, in the order of the axes.

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::arena::read_answer;
 use super::control::Control;
+use super::late::LateGroup;
 use super::members::{Group, InterruptHandle, Member, Shared};
 use super::{BUS, GROUP_MAX};
 use crate::codec;
@@ -25,26 +26,36 @@ use crate::wire::{NOT_A_MESSAGE, ToAuvRef, read_acted};
 const STALL_LIMIT: Duration = Duration::from_secs(300);
 
 /// How long the channel sleeps before it looks by itself; it is woken for everything that it must know.
-const LOOK_AGAIN: Duration = Duration::from_millis(20);
+pub(super) const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
 /// The same in a window in which an AUV died, perhaps just when it was to wake the channel.
 const LOOK_AGAIN_AFTER_LOSS: Duration = Duration::from_millis(1);
 
-/// Splits AUVs into wake-up groups of at most [`GROUP_MAX`], in their order: sort them by the phase of their ticks first, so
-/// that few groups are due in a short window.
-pub fn wake_groups(auvs: &[AuvId]) -> Vec<Vec<AuvId>> {
-    auvs.chunks(GROUP_MAX).map(<[AuvId]>::to_vec).collect()
+/// Splits the AUVs of processes into wake-up groups of at most [`GROUP_MAX`] (more in a process of more), in the order of the
+/// processes: sort them by the phase of their ticks first, so that few groups are due in a short window.
+pub fn wake_groups(processes: &[Vec<AuvId>]) -> Vec<Vec<AuvId>> {
+    let mut groups: Vec<Vec<AuvId>> = Vec::new();
+    for process in processes {
+        match groups.last_mut() {
+            Some(group) if group.len() + process.len() <= GROUP_MAX => group.extend(process),
+            _ => groups.push(process.clone()),
+        }
+    }
+    groups
 }
 
 /// The channel's end of the `iceoryx2` transport.
 pub struct SharedMemoryFleet {
     // The watching thread first: it refers to all the rest.
     watch: Watch,
-    groups: Vec<Group>,
-    members: Vec<Member>,
-    shared: Arc<Shared>,
+    pub(super) groups: Vec<Group>,
+    pub(super) members: Vec<Member>,
+    pub(super) shared: Arc<Shared>,
     window: u32,
     stall_limit: Duration,
+    pub(super) waited: Duration,
+    /// Groups that are at work past a deadline.
+    pub(super) late: Vec<LateGroup>,
     _node: Node<ipc::Service>,
 }
 
@@ -87,6 +98,8 @@ impl SharedMemoryFleet {
             shared,
             window: 0,
             stall_limit: STALL_LIMIT,
+            waited: Duration::ZERO,
+            late: Vec::new(),
             _node: node,
         })
     }
@@ -97,9 +110,8 @@ impl SharedMemoryFleet {
             let index = self.index(*auv)?;
             self.members[index].pid = Some(*pid);
             self.shared.has_ended[index].store(false, Ordering::Release);
-            self.watch.attach(*auv, *pid).map_err(failed)?;
         }
-        Ok(())
+        self.watch.attach(processes).map_err(failed)
     }
 
     /// How long live AUVs may be silent before [`FleetError::Stalled`]; 300 s at first.
@@ -112,13 +124,13 @@ impl SharedMemoryFleet {
         InterruptHandle(Arc::clone(&self.shared))
     }
 
-    fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
+    pub(super) fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
         let found = self.members.binary_search_by_key(&auv, |member| member.auv);
         found.map_err(|_| failed(format_args!("AUV {auv} is in no wake-up group")))
     }
 
     /// Takes in the ends that were noticed since the last window.
-    fn bury(&mut self, losses: &mut Vec<Loss>) {
+    pub(super) fn bury(&mut self, losses: &mut Vec<Loss>) {
         for (member, has_ended) in self.members.iter_mut().zip(&self.shared.has_ended) {
             if member.is_alive && has_ended.load(Ordering::Acquire) {
                 member.lose(PROCESS_ENDED, losses);
@@ -126,7 +138,29 @@ impl SharedMemoryFleet {
         }
     }
 
-    /// Drops from `waiting` those that are done, and those whose process has ended before they were; sleeps until none is left.
+    /// Drops from `waiting` those that are done, and those whose process has ended before they were: whether there was any.
+    pub(super) fn settle(
+        &mut self,
+        waiting: &mut Vec<usize>,
+        losses: &mut Vec<Loss>,
+        is_done: &impl Fn(&Self, usize) -> bool,
+    ) -> bool {
+        let before = losses.len();
+        waiting.retain(|&index| {
+            // In this order: what an ended process had done by its end is final.
+            let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
+            if is_done(self, index) {
+                return false;
+            }
+            if has_ended {
+                self.members[index].lose(PROCESS_ENDED, losses);
+            }
+            !has_ended
+        });
+        losses.len() > before
+    }
+
+    /// Settles until none is left, and sleeps in between.
     fn wait(
         &mut self,
         mut waiting: Vec<usize>,
@@ -141,18 +175,9 @@ impl SharedMemoryFleet {
                 return Err(FleetError::Interrupted);
             }
             let before = waiting.len();
-            waiting.retain(|&index| {
-                // In this order: what an ended process had done by its end is final.
-                let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
-                if is_done(self, index) {
-                    return false;
-                }
-                if has_ended {
-                    self.members[index].lose(PROCESS_ENDED, losses);
-                    look_again = LOOK_AGAIN_AFTER_LOSS;
-                }
-                !has_ended
-            });
+            if self.settle(&mut waiting, losses, &is_done) {
+                look_again = LOOK_AGAIN_AFTER_LOSS;
+            }
             if waiting.is_empty() {
                 return Ok(());
             }
@@ -169,7 +194,7 @@ impl SharedMemoryFleet {
 
     /// Sends `messages` (of live members, sorted by member) group by group, so that the first group is at work while the next
     /// one's are encoded. Returns for each group the live members that have yet to deal with its sample.
-    fn send<T: Serialize>(&mut self, messages: &[(usize, T)]) -> Result<Vec<Vec<usize>>, FleetError> {
+    pub(super) fn send<T: Serialize>(&mut self, messages: &[(usize, T)]) -> Result<Vec<Vec<usize>>, FleetError> {
         self.window = self.window.wrapping_add(1);
         let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
         for (at, (member, _)) in messages.iter().enumerate() {
@@ -199,14 +224,20 @@ impl SharedMemoryFleet {
 
     /// Waits until these members have dealt with their group's sample.
     fn await_group(&mut self, waiting: Vec<usize>, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
-        self.wait(waiting, losses, |fleet, index| {
-            let slot = fleet.shared.control.slot(index);
-            slot.acknowledged.load(Ordering::Acquire) == fleet.groups[fleet.members[index].group].sequence
-        })
+        let since = Instant::now();
+        let waited = self.wait(waiting, losses, Self::has_acknowledged);
+        self.waited += since.elapsed();
+        waited
+    }
+
+    /// Whether a member has dealt with its group's last sample.
+    pub(super) fn has_acknowledged(&self, index: usize) -> bool {
+        let acknowledged = self.shared.control.slot(index).acknowledged.load(Ordering::Acquire);
+        acknowledged == self.groups[self.members[index].group].sequence
     }
 
     /// Takes the answers of one group out of its service. `due` is (member, ticks), sorted.
-    fn gather(
+    pub(super) fn gather(
         &mut self,
         group: usize,
         due: &[(usize, usize)],
@@ -216,22 +247,23 @@ impl SharedMemoryFleet {
         let mut gathered: Vec<Option<Result<Vec<Acted>, String>>> = due.iter().map(|_| None).collect();
         let mut has_garbage = false;
         while let Some(sample) = up.receive().map_err(failed)? {
-            let known = read_answer(sample.payload()).and_then(|(auv, sequence, message)| {
-                let at = due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv).ok()?;
-                Some((at, sequence, message))
-            });
-            let Some((at, sequence, message)) = known else {
-                has_garbage = true;
-                continue;
-            };
-            let member = &self.members[due[at].0];
-            if !member.is_alive {
-                continue;
+            let mut left = sample.payload();
+            while !left.is_empty() {
+                let Some((auv, sequence, message)) = read_answer(&mut left) else {
+                    has_garbage = true;
+                    break;
+                };
+                match due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv) {
+                    Ok(at) if self.members[due[at].0].is_alive => {
+                        gathered[at] = Some(match sequence == *expected {
+                            true => read_acted(message, due[at].1),
+                            false => Err(format!("it answered sample {sequence} instead of {expected}")),
+                        });
+                    }
+                    Ok(_) => {}
+                    Err(_) => has_garbage = true,
+                }
             }
-            gathered[at] = Some(match sequence == *expected {
-                true => read_acted(message, due[at].1),
-                false => Err(format!("it answered sample {sequence} instead of {expected}")),
-            });
         }
         for (&(index, _), acted) in due.iter().zip(gathered) {
             let member = &mut self.members[index];
@@ -253,7 +285,7 @@ impl SharedMemoryFleet {
         Ok(())
     }
 
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.groups.iter_mut().for_each(|group| group.arena.clear());
     }
 }
@@ -306,14 +338,27 @@ impl Fleet for SharedMemoryFleet {
         }
         let waiting = self.send(&messages)?;
         meanwhile();
+        self.waited = Duration::ZERO;
         // In the order of sending: while one group's answers are read, the next groups are at work.
         for (group, (waiting, due)) in waiting.into_iter().zip(due).enumerate() {
             self.await_group(waiting, &mut answers.losses)?;
             self.gather(group, &due, &mut answers)?;
         }
-        answers.acted.sort_by_key(|batch| batch.auv);
-        answers.losses.sort_by_key(|loss| loss.auv);
+        answers.sort();
         Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
+    }
+
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        self.exchange_freely(sensed, deadline, meanwhile)
     }
 
     fn end(&mut self) {
@@ -331,7 +376,7 @@ impl Drop for SharedMemoryFleet {
     }
 }
 
-fn failed(cause: impl Display) -> FleetError {
+pub(super) fn failed(cause: impl Display) -> FleetError {
     FleetError::Failed { bus: BUS, cause: cause.to_string() }
 }
 
@@ -348,10 +393,10 @@ mod tests {
         let mut fleet = SharedMemoryFleet::create(&run, &[vec![AuvId(4)]]).unwrap();
         let joins = run.clone();
         let auv = std::thread::spawn(move || {
-            let mut link = SharedMemoryLink::join(&joins, AuvId(4)).unwrap();
+            let mut link = SharedMemoryLink::join(&joins, &[AuvId(4)]).unwrap();
             link.receive().unwrap();
             link.answer_with(&samples);
-            link.receive().is_ok_and(|message| message == crate::lockstep::ToAuv::End)
+            link.receive().is_ok_and(|message| message == crate::lockstep::ToProcess::End)
         });
         fleet.wait(vec![0], &mut Vec::new(), |fleet, index| {
             fleet.shared.control.slot(index).pid.load(Ordering::Acquire) != 0
@@ -367,7 +412,11 @@ mod tests {
     #[test]
     fn strange_samples_lose_their_sender_and_missing_ones_are_noticed() {
         let fine = codec::encode(&FromAuv::Acted(Vec::new())).unwrap();
-        let answer = |auv, sequence, message: &[u8]| vec![write_answer(AuvId(auv), sequence, message)];
+        let answer = |auv, sequence, message: &[u8]| {
+            let mut sample = Vec::new();
+            write_answer(&mut sample, AuvId(auv), sequence, message);
+            vec![sample]
+        };
         let acted = vec![Batch { auv: AuvId(4), items: Vec::new() }];
         assert_eq!(window(answer(4, 1, &fine)).unwrap(), Answers { acted, losses: Vec::new() });
         let losses = vec![Loss { auv: AuvId(4), reason: NOT_A_MESSAGE.into() }];
@@ -392,8 +441,17 @@ mod tests {
     #[test]
     fn groups_are_small_and_keep_the_order() {
         let auvs: Vec<AuvId> = (0..70).rev().map(AuvId).collect();
-        let groups = wake_groups(&auvs);
-        assert!(groups.iter().all(|group| group.len() <= GROUP_MAX));
-        assert_eq!(groups.concat(), auvs);
+        for size in [1, 3, 32] {
+            let processes: Vec<Vec<AuvId>> = auvs.chunks(size).map(<[AuvId]>::to_vec).collect();
+            let groups = wake_groups(&processes);
+            assert!(groups.iter().all(|group| group.len() <= GROUP_MAX));
+            assert_eq!(groups.concat(), auvs);
+            assert!(processes.iter().all(|process| {
+                groups
+                    .iter()
+                    .any(|group| group.contains(&process[0]) == group.contains(process.last().unwrap()))
+            }));
+        }
+        assert_eq!(wake_groups(std::slice::from_ref(&auvs)), [auvs.clone()]);
     }
 }

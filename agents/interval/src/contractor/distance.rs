@@ -7,6 +7,7 @@
 use super::Contracted;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
+use crate::lanes;
 use crate::rounding::{add_down, add_up, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up};
 use crate::set::{larger, smaller};
 
@@ -55,11 +56,12 @@ fn contract<const N: usize>(
     if range_is_empty || a.is_empty() || b.is_empty() {
         return None;
     }
-    let differences: [Bounds; N] = std::array::from_fn(|axis| Bounds {
-        lower: sub_down(a[axis].lower(), b[axis].upper()),
-        upper: sub_up(a[axis].upper(), b[axis].lower()),
-    });
-    let squares = differences.map(Bounds::square);
+    let differences = (*a - *b).sides();
+    let squares = match lanes::squares(&differences) {
+        Some(squares) => squares.map(Bounds::of),
+        None => differences.map(|difference| Bounds::of(difference).square()),
+    };
+    let differences = differences.map(Bounds::of);
 
     // The squares before an axis and those after it; subtracting its own from the sum of all would count its width twice.
     let mut after = [Bounds::ZERO; N];

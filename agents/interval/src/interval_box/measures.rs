@@ -61,7 +61,7 @@ impl<const N: usize> IntervalBox<N> {
     /// Everything within `radius` of the box along each axis, by the rules of [`Interval::inflate`].
     #[inline]
     pub fn inflate(&self, radius: f64) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| side.inflate(radius)) }.or_empty()
+        *self + IntervalBox { sides: [Interval::centred(0.0, radius); N] }
     }
 
     /// Everything within `radii[axis]` of the box along each axis, by the rules of [`Interval::inflate`].
