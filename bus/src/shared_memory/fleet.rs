@@ -194,7 +194,10 @@ impl SharedMemoryFleet {
 
     /// Sends `messages` (of live members, sorted by member) group by group, so that the first group is at work while the next
     /// one's are encoded. Returns for each group the live members that have yet to deal with its sample.
-    pub(super) fn send<T: Serialize>(&mut self, messages: &[(usize, T)]) -> Result<Vec<Vec<usize>>, FleetError> {
+    pub(super) fn send<T: Serialize>(
+        &mut self,
+        messages: &[(usize, T)],
+    ) -> Result<Vec<Vec<usize>>, FleetError> {
         self.window = self.window.wrapping_add(1);
         let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
         for (at, (member, _)) in messages.iter().enumerate() {

@@ -40,7 +40,9 @@ impl SharedMemoryFleet {
         let messages: Vec<(usize, ToAuvRef)> =
             ready.iter().map(|(index, batch)| (*index, ToAuvRef::Sensed(&batch.items))).collect();
         let waiting = self.send(&messages)?;
-        for (group, (waiting, due)) in waiting.into_iter().zip(due).enumerate().filter(|(_, (_, due))| !due.is_empty()) {
+        for (group, (waiting, due)) in
+            waiting.into_iter().zip(due).enumerate().filter(|(_, (_, due))| !due.is_empty())
+        {
             self.late.push(LateGroup { group, waiting, due });
         }
 
