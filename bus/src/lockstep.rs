@@ -62,6 +62,11 @@ pub trait Fleet {
         meanwhile: &mut dyn FnMut(),
     ) -> Result<Answers, FleetError>;
 
+    /// AUVs that were lost and have a place again, sorted: their births may follow, by [`born`](Self::born). Each is told once.
+    fn vacancies(&mut self) -> Vec<AuvId> {
+        Vec::new()
+    }
+
     /// How long the last exchange waited for AUVs at work, `meanwhile` excluded; nothing where that is not known.
     fn waited(&self) -> Duration {
         Duration::ZERO
@@ -81,11 +86,6 @@ pub trait Fleet {
     ) -> Result<Answers, FleetError> {
         let (_, _, _) = (sensed, deadline, meanwhile);
         Err(FleetError::NoDeadlines)
-    }
-
-    /// AUVs that were lost and have a place again, sorted: their births may follow, by [`born`](Self::born). Each is told once.
-    fn vacancies(&mut self) -> Vec<AuvId> {
-        Vec::new()
     }
 
     /// Tells every AUV that the run is over.
@@ -125,8 +125,6 @@ pub enum ToAuv {
 /// From one AUV to the channel, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum FromAuv {
-    /// The process is up.
-    Hello,
     /// The answers to one batch.
     Acted(Vec<Acted>),
 }

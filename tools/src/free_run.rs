@@ -35,7 +35,8 @@ impl FreePlan {
     /// scenario's. What an AUV is told at a window's end has waited in it, and what it answers waits for the end of another: the
     /// rest of the reaction time is left to think.
     pub fn window_ns(scenario: &Scenario, asked_for: bool) -> Result<i64, Failure> {
-        let limits = scenario.groups.iter().map(|group| window_limit_ns(group.reaction_ns, group.clock.drift_bound));
+        let limits =
+            scenario.groups.iter().map(|group| window_limit_ns(group.reaction_ns, group.clock.drift_bound));
         let limit_ns = limits.min().unwrap_or(i64::MAX);
         if !asked_for {
             return Ok(scenario.window_ns.min(limit_ns / 4).max(1));

@@ -2,6 +2,7 @@
 //!
 //! This executable is also every process of a run: `shoal run` starts `shoal channel` and one `shoal auv` per vehicle.
 
+mod agent_process;
 mod auv_process;
 mod bench;
 mod channel_process;
@@ -63,6 +64,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
+        Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
         Command::Channel { run } => {
             RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))

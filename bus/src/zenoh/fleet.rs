@@ -8,10 +8,8 @@ use zenoh::bytes::ZBytes;
 use zenoh::pubsub::Subscriber;
 use zenoh::{Session, Wait};
 
-use super::frame::write_down;
 use super::member::{Awaits, Member};
 use super::{BUS, session, up_key};
-use crate::codec;
 use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, PROCESS_ENDED};
 use crate::message::{AuvId, Born, Sensed};
 use crate::os::raise_descriptor_limit;
@@ -205,8 +203,7 @@ impl Fleet for ZenohFleet {
             let member = &mut self.members[index];
             member.sequence += 1;
             member.is_alive = true;
-            let message = codec::encode(&ToAuvRef::Born(born)).map_err(failed)?;
-            member.awaits = Awaits::Birth(write_down(member.sequence, &message));
+            member.awaits = Awaits::Birth(Box::new(born.clone()));
             if member.has_ended {
                 member.lose(PROCESS_ENDED, &mut answers.losses);
             }
@@ -271,9 +268,8 @@ impl Fleet for ZenohFleet {
         if std::mem::replace(&mut self.has_told_end, true) {
             return;
         }
-        let Ok(message) = codec::encode(&ToAuvRef::End) else { return };
         for member in &mut self.members {
-            let is_told = member.is_alive && !member.has_ended && member.send_next(&message).is_ok();
+            let is_told = member.is_alive && !member.has_ended && member.send_next(&ToAuvRef::End).is_ok();
             member.awaits = if is_told { Awaits::End } else { Awaits::Nothing };
         }
         // Whoever does not hear of it in time ends with the connection.
