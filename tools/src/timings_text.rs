@@ -90,6 +90,20 @@ mod tests {
             over_time: vec![stretch(0.09, 5.0), stretch(15.03, 3.0)],
             cpu: Some(Cpu { us_per_auv_s: 123.4, channel_us_per_auv_s: 61.7, switches_per_wake: 1.25 }),
         };
-        insta::assert_snapshot!(render(&timings));
+        let expected = [
+            "where the time of 334 windows went (1.34 s), in ms per window",
+            "                 median      95 %       max   share",
+            "  # channel       1.000     1.250     5.000  25.0 %  ###############",
+            "  w wake          0.400     0.500     2.000  10.0 %  wwwwww",
+            "  r record        0.200     0.250     1.000   5.0 %  rrr",
+            "  . agents        2.000     2.500    10.000  50.0 %  ..............................",
+            "  g gather        0.200     0.250     1.000   5.0 %  ggg",
+            "  a accept        0.200     0.250     1.000   5.0 %  aaa",
+            "  over the run: true time, ms per window",
+            "       0.09 s     5.000  ###############wwwwwwrrr..............................gggaaa",
+            "      15.03 s     3.000  #########wwwwr..................ggaa",
+            "  processors    123.4 us per AUV and simulated second, 61.7 of them the channel's; 1.25 context switches per wake",
+        ];
+        assert_eq!(render(&timings).lines().collect::<Vec<_>>(), expected);
     }
 }
