@@ -1,6 +1,12 @@
 //! What a run amounts to: the line that `shoal run --json` prints and the last message of a record.
 
+mod free_run;
+mod timings;
+
 use serde::{Deserialize, Serialize};
+
+pub use free_run::{FreeRun, LateAuv};
+pub use timings::{Cpu, Phase, PhaseLine, Stretch, Timings};
 
 /// Format tag of [`Summary`].
 pub const SUMMARY_FORMAT: &str = "shoal.summary/1";
@@ -18,7 +24,7 @@ pub struct Summary {
     /// Transport that carried the run.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bus: Option<String>,
-    /// Whether scenario and seed determine the digest: not when a process died or the run was interrupted.
+    /// Whether scenario and seed determine the digest: not when a process died, the run was interrupted, or AUVs ran freely.
     pub reproducible: bool,
     /// Number of AUVs.
     pub auvs: u32,
@@ -61,6 +67,12 @@ pub struct Summary {
     /// Memory of the processes.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub memory: Option<Memory>,
+    /// Where the time went, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub timings: Option<Timings>,
+    /// Deadlines and who missed them, where AUVs ran freely.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub free_run: Option<FreeRun>,
 }
 
 /// The proof.

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
 use crate::plot::Kind;
 use crate::set::Setting;
@@ -82,6 +83,11 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// Measure this machine
+    Bench {
+        #[command(subcommand)]
+        command: BenchCommand,
+    },
     /// A program of the user's that is one AUV; started by `run`
     #[command(hide = true)]
     Agent(AgentArgs),
@@ -95,6 +101,16 @@ pub enum Command {
         #[arg(long)]
         run: PathBuf,
     },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum BenchCommand {
+    /// What an AUV costs among more and more others at the same density: processor time, start-up, memory
+    #[command(
+        after_help = "Examples:\n  shoal bench scale\n  shoal bench scale --bus local --auvs 100,1000,10000 --json\n  \
+        shoal bench scale --control-period-s 1"
+    )]
+    Scale(ScaleArgs),
 }
 
 #[derive(Debug, Subcommand)]
@@ -128,9 +144,16 @@ pub struct RunArgs {
     pub set: Vec<Setting>,
     #[command(flatten)]
     pub changes: Changes,
-    /// `max`, or simulated seconds per second of wall clock: 1 is real time
-    #[arg(long, default_value = "max", value_parser = parse_pace, allow_negative_numbers = true)]
-    pub pace: Pace,
+    /// `max`, or simulated seconds per second of wall clock: 1 is real time. `max` unless given, 1 with --free-run
+    #[arg(long, value_parser = parse_pace, allow_negative_numbers = true)]
+    pub pace: Option<Pace>,
+    /// Wait for nobody: an AUV that does not answer within its reaction time holds its last command. For hardware in the loop;
+    /// such a run cannot be reproduced
+    #[arg(long)]
+    pub free_run: bool,
+    /// Tell where the time went, as a graph, or with --json in the summary
+    #[arg(long)]
+    pub timings: bool,
     /// Write a record (MCAP) of the run
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,

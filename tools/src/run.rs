@@ -11,13 +11,15 @@ use shoal_bus::lockstep::{Fleet, PROCESS_ENDED};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
-use shoal_scenario::{OnCrash, Scenario};
+use shoal_scenario::Scenario;
 
 use crate::agent_process::{check_commands, needs_no_processes};
 use crate::cli::{Bus, RunArgs};
-use crate::drive::{Ending, Observer, Plan, drive};
+use crate::conduct::conduct;
+use crate::drive::{Ending, Observer};
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
+use crate::free_run::FreePlan;
 use crate::launch::{Done, FromChannel, Order};
 use crate::memory;
 use crate::observers::{Progress, Recorder, Tapped};
@@ -25,6 +27,7 @@ use crate::processes::{ChannelProcess, Ending as ProcessEnding, FAREWELL, HASTY_
 use crate::progress::Bar;
 use crate::seat::Seat;
 use crate::summary_text;
+use crate::timings_text;
 
 /// The words of so many of the user's programs are shown.
 const LOGS_SHOWN: usize = 8;
@@ -35,6 +38,9 @@ pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let scenario = order.scenario()?;
     for warning in scenario.warnings() {
         eprintln!("warning: {warning}");
+    }
+    if order.free_run {
+        FreePlan::window_ns(&scenario, order.changes.window_ms.is_some())?;
     }
     check_commands(&scenario, &order)?;
     if order.bus == Bus::Local {
@@ -176,33 +182,24 @@ fn in_this_program(
     let startup_s = began.elapsed().as_secs_f64();
     bar.start();
 
-    let plan = Plan {
-        window_ns: scenario.window_ns,
-        pace: order.pace,
-        abort_on_crash: scenario.on_crash == OnCrash::Abort,
-    };
     let mut progress = Progress::new(|sim_s| bar.advance(sim_s));
     let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
     observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
-    let windows = Instant::now();
     let is_interrupted = || interrupted.load(Ordering::Acquire);
-    let ending = drive(&mut channel, &mut fleet, &plan, &mut observers, &is_interrupted)?;
-    let wall_s = windows.elapsed().as_secs_f64();
+    let conducted = conduct(order, scenario, &mut channel, &mut fleet, &mut observers, &is_interrupted, &[])?;
 
-    let simulated = channel.summary();
+    let simulated = conducted.complete(channel.summary());
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.iter().for_each(|trouble| bar.note(trouble));
     tapped.end();
     let summary = Summary {
         bus: Some(order.bus.name().to_owned()),
         processes: Some(1),
-        wall_s: Some(wall_s),
         startup_s: Some(startup_s),
-        real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
         memory: Some(Memory { auv_pss_kib_median: 0, channel_rss_kib: memory::own_rss_kib() }),
-        ..simulated
+        ..conducted.with_wall_facts(simulated)
     };
-    let interrupted = ending == Ending::Interrupted;
+    let interrupted = conducted.ending == Ending::Interrupted;
     Ok(Done { summary, interrupted, record_incomplete: incomplete_record.is_some(), aborted: None })
 }
 
@@ -210,7 +207,8 @@ fn print_summary(args: &RunArgs, done: &Done) -> Result<(), Failure> {
     let text = if args.json {
         serde_json::to_string(&done.summary).while_doing("print the summary")? + "\n"
     } else {
-        summary_text::render(&done.summary)
+        let timings = done.summary.timings.as_ref().map(timings_text::render);
+        summary_text::render(&done.summary) + &timings.unwrap_or_default()
     };
     if let Some(aborted) = &done.aborted {
         eprintln!("error: the run was aborted: {aborted}");

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use shoal_bus::summary::{Assumption, EstimatorLine, Kidnapped, Summary, ViolationLine};
+use shoal_bus::summary::{Assumption, EstimatorLine, FreeRun, Kidnapped, Summary, ViolationLine};
 
 /// A dozen lines that say what a run amounts to.
 pub fn render(summary: &Summary) -> String {
@@ -132,6 +132,9 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             lost.reason
         )?;
     }
+    if let Some(free_run) = &summary.free_run {
+        write_deadlines(text, free_run)?;
+    }
     if let Some(memory) = &summary.memory {
         write!(text, "  memory        channel {:.1} MiB", memory.channel_rss_kib as f64 / 1024.0)?;
         if memory.auv_pss_kib_median > 0 {
@@ -141,6 +144,27 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
     }
     let reproducible = if summary.reproducible { "reproducible" } else { "NOT reproducible" };
     writeln!(text, "  digest        {} ({reproducible})", summary.digest)
+}
+
+/// Who was late how often; the first ten of them.
+fn write_deadlines(text: &mut String, free_run: &FreeRun) -> std::fmt::Result {
+    let FreeRun { deadline_misses, worst_s, late, lag_max_s } = free_run;
+    let lag = seconds(*lag_max_s);
+    if *deadline_misses == 0 {
+        return writeln!(text, "  deadlines     none missed; {lag} behind the wall clock at most");
+    }
+    writeln!(
+        text,
+        "  deadlines     {} missed by {}, {} at worst; {lag} behind the wall clock at most",
+        grouped(*deadline_misses),
+        counted(late.len() as u32, "AUV", "AUVs"),
+        seconds(*worst_s),
+    )?;
+    for auv in late.iter().take(10) {
+        let (misses, worst) = (grouped(auv.misses), seconds(auv.worst_s));
+        writeln!(text, "                {} (AUV {}): {misses} missed, {worst} at worst", auv.name, auv.auv)?;
+    }
+    Ok(())
 }
 
 /// Whether there is something to compare, or an estimator whose boxes nobody promises to hold the truth.

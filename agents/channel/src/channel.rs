@@ -18,6 +18,7 @@ use thiserror::Error;
 use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
+use crate::deadlines::{Deadlines, remembered_from};
 use crate::digest::Digest;
 use crate::flock::{Flock, Flying};
 use crate::grid::Grid;
@@ -94,6 +95,10 @@ pub struct Channel {
     moments: [Vec<Moment>; 2],
     tally: Tally,
     digest: Digest,
+    /// Only where AUVs run freely.
+    deadlines: Option<Deadlines>,
+    /// The past before this is forgotten.
+    remembered: SimTime,
 }
 
 /// One piece of the swarm's part in a window: memory to work in, and the outcome. What is not taken from it keeps its memory.
@@ -167,6 +172,8 @@ impl Channel {
             is_flock_watched: false,
             moments: Default::default(),
             digest: Digest::default(),
+            deadlines: None,
+            remembered: SimTime::ZERO,
         })
     }
 
@@ -237,6 +244,15 @@ impl Channel {
         accepted.append(advanced);
     }
 
+    /// As [`accept`](Channel::accept), for AUVs that run freely: answers may be to earlier windows, or come later. `by` is the true
+    /// time that the wall clock stands for; a tick whose answer is not in by its reaction time counts as a miss. What was
+    /// decided too late takes effect now, pings whose time has passed are lost as `late`, and reports are checked against the
+    /// truth of their ticks.
+    pub fn accept_late(&mut self, answers: Answers, by: SimTime) {
+        self.deadlines.get_or_insert_default().judge(&mut self.vehicles, by.max(self.now));
+        self.accept(answers);
+    }
+
     /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
     /// apart from [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
@@ -272,16 +288,24 @@ impl Channel {
         let told = |vehicle: &Vehicle| ToldPings { heard: vehicle.pings_heard, windows: vehicle.windows() };
         let told: Vec<_> = self.vehicles.iter().map(told).collect();
         let in_flight = self.medium.in_flight();
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told)
+        let summary =
+            self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told);
+        let free_run = self.deadlines.as_ref().map(|deadlines| deadlines.summary(&self.vehicles));
+        Summary { reproducible: summary.reproducible && free_run.is_none(), free_run, ..summary }
     }
 
     /// Moves all bodies to `to`, and lets go what leaves before.
     fn move_bodies(&mut self, to: SimTime) {
         let now = self.now;
+        self.remembered = match &self.deadlines {
+            Some(_) => remembered_from(&self.vehicles, now),
+            None => now,
+        };
+        let remembered = self.remembered;
         share_out(&mut self.vehicles, &mut self.places_m, &mut self.shares, |vehicles, places_m, share| {
             share.leapt_m = 0.0;
             for (vehicle, place_m) in vehicles.iter_mut().zip(places_m) {
-                vehicle.forget_before(now);
+                vehicle.forget_before(remembered);
                 vehicle.body.integrate(to);
                 *place_m = vehicle.body.position_at(now);
                 share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));

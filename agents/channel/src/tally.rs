@@ -135,6 +135,8 @@ impl Tally {
             flock,
             agents: Agents { lost: self.lost.clone(), restarted: self.restarted.clone() },
             memory: None,
+            timings: None,
+            free_run: None,
         }
     }
 

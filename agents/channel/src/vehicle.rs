@@ -64,7 +64,8 @@ pub struct Vehicle {
     heard: Vec<HeardPing>,
     held: Vec<(LocalTime, SimTime)>,
     planned: VecDeque<Planned>,
-    answered: VecDeque<Tick>,
+    /// Ticks that wait for their answers.
+    pub answered: VecDeque<Tick>,
 }
 
 /// A ping that is booked.

@@ -158,6 +158,7 @@ impl<W: Write> RecordWriter<W> {
             startup_s: None,
             real_time_factor: None,
             memory: None,
+            timings: None,
             ..summary.clone()
         };
         self.write(Topic::Summary, self.written, &serde_json::to_vec(&stored)?)?;

@@ -55,6 +55,8 @@ pub fn summary_with(auvs: u32, end_max: f64) -> Summary {
         flock: Flock::default(),
         agents: Agents::default(),
         memory: Some(Memory::default()),
+        timings: None,
+        free_run: None,
     }
 }
 
