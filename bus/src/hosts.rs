@@ -182,6 +182,11 @@ pub enum HostError {
     Fleet(#[from] FleetError),
 }
 
+/// What both ends call the text of a scenario: `blake3:` and its hash.
+pub fn scenario_hash(text: &str) -> String {
+    format!("blake3:{}", blake3::hash(text.as_bytes()).to_hex())
+}
+
 /// AUVs for people: runs of consecutive ids as `a..b`.
 pub fn ranges(auvs: &[AuvId]) -> String {
     let mut sorted: Vec<u32> = auvs.iter().map(|auv| auv.0).collect();
