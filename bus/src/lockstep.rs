@@ -3,6 +3,8 @@
 //! The channel advances in windows. In each it sends every AUV that is due its ordered batch of [`Sensed`], and waits until
 //! each of them has answered with as many [`Acted`], or has died. Slowness is waited for and changes nothing.
 
+use std::collections::BTreeMap;
+
 use thiserror::Error;
 
 use crate::message::{Acted, AuvId, Born, Sensed};
@@ -60,15 +62,26 @@ pub trait Fleet {
     fn end(&mut self);
 }
 
-/// An AUV's end of a transport.
+/// The end of a transport in a process of AUVs: usually one, at times several that share it.
 pub trait Link {
     /// The next message from the channel; blocks.
-    fn receive(&mut self) -> Result<ToAuv, LinkError>;
-    /// Answers the batch just received.
-    fn answer(&mut self, acted: Vec<Acted>) -> Result<(), LinkError>;
+    fn receive(&mut self) -> Result<ToProcess, LinkError>;
+    /// Answers the last batch that its AUV received. Batches of other AUVs may be received in between.
+    fn answer(&mut self, acted: Batch<Acted>) -> Result<(), LinkError>;
 }
 
-/// From the channel to one AUV.
+/// What a process of AUVs hears.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToProcess {
+    /// What one of its AUVs is.
+    Born(Box<Born>),
+    /// What one of its AUVs sensed.
+    Sensed(Batch<Sensed>),
+    /// The run is over, for all of them.
+    End,
+}
+
+/// From the channel to one AUV, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum ToAuv {
     /// What you are.
@@ -79,7 +92,7 @@ pub enum ToAuv {
     End,
 }
 
-/// From one AUV to the channel.
+/// From one AUV to the channel, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum FromAuv {
     /// The process is up.
@@ -94,18 +107,20 @@ pub trait Mind {
     fn step(&mut self, sensed: &Sensed) -> Acted;
 }
 
-/// Lives one AUV's life on a link: waits to be born, answers batches, ends when told.
+/// Lives the lives of a process's AUVs on a link: each waits to be born, answers batches, ends when told.
 pub fn live<M: Mind>(link: &mut dyn Link, be_born: impl Fn(&Born) -> M) -> Result<(), LinkError> {
-    let mut mind: Option<M> = None;
+    let mut minds: BTreeMap<AuvId, M> = BTreeMap::new();
     loop {
         match link.receive()? {
-            ToAuv::Born(born) => mind = Some(be_born(&born)),
-            ToAuv::Sensed(batch) => {
-                let Some(mind) = mind.as_mut() else { return Err(LinkError::NotBorn) };
-                let acted = batch.iter().map(|sensed| mind.step(sensed)).collect();
-                link.answer(acted)?;
+            ToProcess::Born(born) => {
+                minds.insert(born.auv, be_born(&born));
             }
-            ToAuv::End => return Ok(()),
+            ToProcess::Sensed(Batch { auv, items }) => {
+                let Some(mind) = minds.get_mut(&auv) else { return Err(LinkError::NotBorn { auv }) };
+                let acted = items.iter().map(|sensed| mind.step(sensed)).collect();
+                link.answer(Batch { auv, items: acted })?;
+            }
+            ToProcess::End => return Ok(()),
         }
     }
 }
@@ -142,14 +157,12 @@ pub enum FleetError {
     Interrupted,
 }
 
-/// What stops an AUV's end of a transport.
+/// What stops the end of a transport in a process of AUVs.
 #[derive(Debug, Error)]
 pub enum LinkError {
     /// The transport could not be set up.
     #[error("could not join the {bus} bus: {cause}")]
     Setup {
-        /// Who.
-        auv: AuvId,
         /// Which transport.
         bus: &'static str,
         /// What its library said.
@@ -167,8 +180,11 @@ pub enum LinkError {
     #[error("a message from the channel could not be read: {0}")]
     Codec(#[from] crate::codec::CodecError),
     /// A batch came before birth.
-    #[error("the channel sent a batch before it sent what this AUV is")]
-    NotBorn,
+    #[error("the channel sent a batch before it sent what AUV {auv} is")]
+    NotBorn {
+        /// Who.
+        auv: AuvId,
+    },
 }
 
 fn list(auvs: &[AuvId]) -> String {

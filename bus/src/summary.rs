@@ -274,7 +274,7 @@ pub struct LostAgent {
 /// Memory of the processes, read at the end of the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Memory {
-    /// Median proportional set size of a sample of AUV processes, in KiB.
+    /// Median proportional set size per AUV of a sample of their processes, in KiB.
     pub auv_pss_kib_median: u64,
     /// Resident set of the channel, in KiB.
     pub channel_rss_kib: u64,

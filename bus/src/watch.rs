@@ -21,7 +21,7 @@ pub(crate) struct Watch {
 struct Shared {
     epoll: OwnedFd,
     stop: OwnedFd,
-    attached: Mutex<Vec<(AuvId, Option<Process>)>>,
+    attached: Mutex<Vec<(Vec<AuvId>, Option<Process>)>>,
     ended: Box<dyn Fn(AuvId) + Send + Sync>,
 }
 
@@ -40,16 +40,21 @@ impl Watch {
         Ok(Self { shared, thread: Some(thread) })
     }
 
-    /// Watches the process `pid` of `auv`.
-    pub(crate) fn attach(&self, auv: AuvId, pid: u32) -> io::Result<()> {
-        let Some(process) = Process::open(pid)? else {
-            (self.shared.ended)(auv);
-            return Ok(());
-        };
-        let mut attached = self.shared.attached.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let key = epoll::EventData::new_u64(attached.len() as u64);
-        epoll::add(&self.shared.epoll, &process.0, key, epoll::EventFlags::IN)?;
-        attached.push((auv, Some(process)));
+    /// Watches the processes of these AUVs; those that share one are next to each other.
+    pub(crate) fn attach(&self, processes: &[(AuvId, u32)]) -> io::Result<()> {
+        for together in processes.chunk_by(|(_, one), (_, next)| one == next) {
+            let (Some((_, pid)), auvs) = (together.first(), together.iter().map(|(auv, _)| *auv)) else {
+                continue;
+            };
+            let Some(process) = Process::open(*pid)? else {
+                auvs.for_each(&self.shared.ended);
+                continue;
+            };
+            let mut attached = self.shared.attached.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let key = epoll::EventData::new_u64(attached.len() as u64);
+            epoll::add(&self.shared.epoll, &process.0, key, epoll::EventFlags::IN)?;
+            attached.push((auvs.collect(), Some(process)));
+        }
         Ok(())
     }
 }
@@ -76,12 +81,12 @@ impl Shared {
 
     fn end(&self, index: usize) {
         let mut attached = self.attached.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let Some((auv, process)) = attached.get_mut(index) else { return };
+        let Some((auvs, process)) = attached.get_mut(index) else { return };
         // Closing the descriptor also takes it out of the epoll set.
         if process.take().is_some() {
-            let auv = *auv;
+            let auvs = std::mem::take(auvs);
             drop(attached);
-            (self.ended)(auv);
+            auvs.into_iter().for_each(&self.ended);
         }
     }
 }

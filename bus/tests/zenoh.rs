@@ -19,13 +19,14 @@ fn an_auv() {
     crew::be_an_auv_if_asked();
 }
 
-fn equals_local(count: u32, windows: u64) {
+fn equals_local(count: u32, windows: u64, each: u32) {
     let expected = digest(&mut Local::new(Echo::new), count, windows);
     let mut crew = Crew::new();
+    crew.each = each;
     let mut fleet = crew.zenoh(count, AS_AUV, &[]);
     assert_eq!(digest(&mut fleet, count, windows), expected);
     fleet.end();
-    for auv in 0..count {
+    for auv in (0..count).step_by(each as usize) {
         assert!(crew.await_end(auv).success());
     }
     drop(fleet);
@@ -34,17 +35,48 @@ fn equals_local(count: u32, windows: u64) {
 
 #[test]
 fn three_answer_as_in_one_program() {
-    equals_local(3, 60);
+    equals_local(3, 60, 1);
 }
 
 #[test]
 fn forty_answer_as_in_one_program() {
-    equals_local(40, 20);
+    equals_local(40, 20, 1);
+}
+
+#[test]
+fn several_of_one_process_answer_as_in_one_program() {
+    for (count, each) in [(40, 7), (64, 32), (80, 80)] {
+        equals_local(count, 20, each);
+    }
+}
+
+#[test]
+fn a_killed_process_is_the_loss_of_all_its_auvs() {
+    let mut crew = Crew::new();
+    crew.each = 3;
+    let mut fleet = crew.zenoh(11, AS_AUV, &[(6, "silent")]);
+    fleet.born(&crew::born(11)).unwrap();
+    let pid = crew.pid(6);
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(100));
+        crew::kill_pid(pid);
+    });
+    let ended = |auvs: [u32; 3]| auvs.map(|auv| loss(auv, "its process ended"));
+    assert_eq!(exchange(&mut fleet, 11, 1).unwrap().losses, ended([6, 7, 8]));
+    crew.kill(1);
+    crew.await_end(0);
+    std::thread::sleep(Duration::from_millis(50));
+    let answers = exchange(&mut fleet, 11, 2).unwrap();
+    assert_eq!(answers.losses, ended([0, 1, 2]));
+    assert!(answers.acted.iter().all(|batch| [3, 4, 5, 9, 10].contains(&batch.auv.0)));
+    assert!(answers.acted.len() >= 4);
+    drop(fleet);
+    crew.disband();
 }
 
 #[test]
 fn three_hundred_answer_as_in_one_program() {
-    equals_local(300, 5);
+    equals_local(300, 5, 1);
 }
 
 #[test]

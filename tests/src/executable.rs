@@ -204,10 +204,15 @@ impl Live {
             .find(|child| child.arguments().get(1).is_some_and(|word| word == "channel"))
     }
 
-    /// The processes of the AUVs that are there, by the AUVs' ids.
+    /// The processes of the AUVs that are there, by the AUVs' ids: several share one with `--auvs-per-process`.
     pub fn auvs(&mut self) -> BTreeMap<u32, Process> {
-        let children = self.children().into_iter();
-        children.filter_map(|child| Some((child.argument("--auv")?.parse().ok()?, child))).collect()
+        let carried = |child: &Process| {
+            let auvs = child.argument("--auvs")?;
+            let (first, end) = auvs.split_once("..")?;
+            Some(first.parse::<u32>().ok()?..end.parse().ok()?)
+        };
+        let each = |child: Process| carried(&child).unwrap_or(0..0).map(move |auv| (auv, child));
+        self.children().into_iter().flat_map(each).collect()
     }
 
     /// The id of its run, once it is there.

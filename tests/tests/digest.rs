@@ -29,6 +29,20 @@ fn six_circles_on_every_bus_in_every_window_and_again() {
 }
 
 #[test]
+fn auvs_that_share_processes_change_nothing() {
+    let _cores = alone();
+    for scenario in ["six-circles", "swarm-300 --duration 3"] {
+        let reference = digest(&format!("run {scenario} --bus local"));
+        for bus in ["iceoryx2", "zenoh"] {
+            for each in [7, 1000] {
+                let other = digest(&format!("run {scenario} --bus {bus} --auvs-per-process {each}"));
+                assert_eq!(other, reference, "{scenario} {bus} {each}");
+            }
+        }
+    }
+}
+
+#[test]
 fn another_seed_or_mood_gives_another_digest() {
     let mut digests: Vec<String> = ["", "--seed 8", "--noise adversarial", "--duration 59.99"]
         .iter()

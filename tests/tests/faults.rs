@@ -31,6 +31,22 @@ fn a_killed_auv_is_named_and_the_run_goes_on() {
 }
 
 #[test]
+fn a_killed_process_is_the_loss_of_all_its_auvs() {
+    for bus in BUSES {
+        let mut live =
+            Command::new("run six-circles --pace 15 --auvs-per-process 2 --json --bus").with(bus).start();
+        live.await_pings(6);
+        live.auvs()[&3].signal(Signal::KILL);
+        let summary = live.finish().exited(3).json();
+        assert_eq!((&summary["sim_s"], &summary["processes"]), (&60.0.into(), &4.into()));
+        let lost = summary["agents"]["lost"].as_array().unwrap();
+        assert!(lost.iter().map(|lost| &lost["auv"]).eq([2, 3]), "{lost:?}");
+        assert!(lost.iter().all(|lost| lost["reason"].as_str().unwrap().contains("killed by signal 9")));
+        assert_eq!(summary["containment"]["violations"], 0);
+    }
+}
+
+#[test]
 fn the_lost_are_named_for_people_too() {
     let mut live = Command::new("run six-circles --pace 15 --quiet").start();
     live.await_pings(6);

@@ -15,7 +15,7 @@ fn a_run_is_one_process_per_auv_and_one_for_the_water() {
     for (auv, process) in &auvs {
         assert_eq!(executable(process.pid), executable(live.launcher().pid));
         let arguments = process.arguments().join(" ");
-        assert!(arguments.contains(&format!("--auv {auv} ")), "{arguments}");
+        assert!(arguments.contains(&format!("--auvs {auv}..{} ", auv + 1)), "{arguments}");
         assert!(!arguments.contains("six-circles") && !arguments.contains("seed"), "{arguments}");
     }
     assert!(!auvs.values().any(|auv| *auv == channel));
@@ -41,6 +41,21 @@ fn zenoh_has_as_many_and_local_has_none() {
     await_that("the run is there", || live.run_id().is_some());
     assert!(live.children().is_empty());
     assert_eq!(live.finish().succeeded().json()["processes"], 1);
+}
+
+#[test]
+fn several_auvs_may_share_a_process() {
+    for bus in ["iceoryx2", "zenoh"] {
+        let mut live =
+            Command::new("run six-circles --pace 30 --auvs-per-process 4 --json --bus").with(bus).start();
+        live.await_pings(6);
+        let auvs = live.auvs();
+        assert_eq!(live.children().len(), 3);
+        assert!((1..4).all(|auv| auvs[&auv] == auvs[&0]) && auvs[&4] == auvs[&5] && auvs[&4] != auvs[&0]);
+        let summary = live.finish().succeeded().json();
+        assert_eq!((&summary["auvs"], &summary["processes"]), (&6.into(), &3.into()));
+        assert!(summary["memory"]["auv_pss_kib_median"].as_u64().unwrap() > 0);
+    }
 }
 
 #[test]
@@ -105,6 +120,11 @@ fn what_cannot_be_run_is_refused_with_a_sentence() {
     refused("run six-circles --duration 0", "duration");
     refused("run six-circles --auvs 0", "auvs");
     refused("run six-circles --pace 0", "pace");
+    refused("run six-circles --auvs-per-process 0", "give a whole number from 1 on");
+    refused(
+        "run six-circles --bus local --auvs-per-process 2",
+        "--auvs-per-process is for AUVs in processes",
+    );
     refused("check six-circels", "did you mean `six-circles`?");
     refused("run", "<SCENARIO>");
 }

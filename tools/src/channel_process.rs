@@ -1,9 +1,10 @@
 //! `shoal channel`: the process of the water.
 
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use shoal_bus::lockstep::{Fleet, FleetError};
@@ -22,6 +23,7 @@ use crate::failure::{Failure, While};
 use crate::launch::{Done, FromChannel, Order, ToChannel};
 use crate::memory;
 use crate::observers::{Progress, Recorder, Tapped};
+use crate::seat::Seat;
 
 /// Runs the water for the launcher at the other end of the pipes, in the folder `run`.
 pub fn run(run: &RunDir) -> Result<Exit, Failure> {
@@ -66,14 +68,15 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
         Some(path) => Some(Recorder::create(path, &scenario, &order.text, &channel.born())?),
         None => None,
     };
+    let seats = Seat::of_run(&order, &scenario);
     let launched = match order.bus {
         Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
         Bus::Iceoryx2 => {
-            let mut fleet = SharedMemoryFleet::create(run, &wake_groups(&channel.wake_order()))
-                .map_err(Failure::failed)?;
+            let groups = wake_groups(&in_wake_order(&seats, &channel));
+            let mut fleet = SharedMemoryFleet::create(run, &groups).map_err(Failure::failed)?;
             let interrupt = fleet.interrupt_handle();
-            let launched = Launched::wait(lines, orphaned, move || interrupt.interrupt())?;
-            fleet.attach_processes(&launched.processes).map_err(Failure::failed)?;
+            let launched = Launched::wait(seats, lines, orphaned, move || interrupt.interrupt())?;
+            fleet.attach_processes(&launched.processes()).map_err(Failure::failed)?;
             (Box::new(fleet) as Box<dyn Fleet>, launched)
         }
         Bus::Zenoh => {
@@ -81,8 +84,8 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
             let auvs: Vec<AuvId> = channel.born().iter().map(|born| born.auv).collect();
             let mut fleet = ZenohFleet::create(&endpoint, run.id(), &auvs).map_err(Failure::failed)?;
             let interrupt = fleet.interrupt_handle();
-            let launched = Launched::wait(lines, orphaned, move || interrupt.interrupt())?;
-            fleet.attach_processes(&launched.processes).map_err(Failure::failed)?;
+            let launched = Launched::wait(seats, lines, orphaned, move || interrupt.interrupt())?;
+            fleet.attach_processes(&launched.processes()).map_err(Failure::failed)?;
             (Box::new(fleet) as Box<dyn Fleet>, launched)
         }
     };
@@ -137,11 +140,16 @@ fn carry_out(
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.clone().map(FromChannel::Note).iter().for_each(say);
     tapped.end();
-    let alive: Vec<u32> =
-        launched.processes.iter().filter(|(auv, _)| channel.is_alive(*auv)).map(|&(_, pid)| pid).collect();
+    let is_alive = |seat: &Seat| seat.ids().into_iter().any(|auv| channel.is_alive(auv));
+    let alive: Vec<(u32, usize)> = launched
+        .seats
+        .iter()
+        .filter(|(seat, _)| is_alive(seat))
+        .map(|(seat, pid)| (*pid, seat.auvs.len()))
+        .collect();
     let summary = Summary {
         bus: Some(order.bus.name().to_owned()),
-        processes: Some(launched.processes.len() as u32 + 1),
+        processes: Some(launched.seats.len() as u32 + 1),
         wall_s: Some(wall_s),
         real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
         memory: Some(Memory {
@@ -161,16 +169,25 @@ fn carry_out(
     Ok(FromChannel::Done(Box::new(Done { summary, interrupted, record_incomplete, aborted })))
 }
 
-/// The AUVs' processes, and the launcher's later word.
+/// The AUVs of each seat, in the order of the first of each to wake.
+fn in_wake_order(seats: &[Seat], channel: &Channel) -> Vec<Vec<AuvId>> {
+    let place: BTreeMap<AuvId, usize> = channel.wake_order().into_iter().zip(0..).collect();
+    let mut processes: Vec<Vec<AuvId>> = seats.iter().map(Seat::ids).collect();
+    processes.sort_by_key(|auvs| auvs.iter().filter_map(|auv| place.get(auv)).min());
+    processes
+}
+
+/// The seats with their processes, and the launcher's later word.
 struct Launched {
-    processes: Vec<(AuvId, u32)>,
+    seats: Vec<(Seat, u32)>,
     stop: Arc<AtomicBool>,
 }
 
 impl Launched {
-    /// Asks the launcher for the AUVs and listens to it from then on. When it says stop, or is gone (`orphaned` is set),
+    /// Asks the launcher for the AUVs' processes and listens to it from then on. When it says stop, or is gone (`orphaned` is set),
     /// `interrupt` is called.
     fn wait(
+        seats: Vec<Seat>,
         lines: io::StdinLock<'static>,
         orphaned: &Arc<AtomicBool>,
         interrupt: impl Fn() + Send + 'static,
@@ -203,17 +220,19 @@ impl Launched {
             .name("launcher".to_owned())
             .spawn(listen)
             .while_doing("start a thread")?;
-        Ok(Self { processes: processes(&receiver)?, stop })
+        let pids = receiver.recv().map_err(|_| Failure::failed("the launcher ended before the run began"))?;
+        Ok(Self { seats: seats.into_iter().zip(pids).collect(), stop })
+    }
+
+    /// Which process is which AUV.
+    fn processes(&self) -> Vec<(AuvId, u32)> {
+        let of_seat = |(seat, pid): &(Seat, u32)| seat.ids().into_iter().zip(std::iter::repeat(*pid));
+        self.seats.iter().flat_map(of_seat).collect()
     }
 
     fn interrupted(&self) -> bool {
         self.stop.load(Ordering::Acquire)
     }
-}
-
-fn processes(receiver: &Receiver<Vec<u32>>) -> Result<Vec<(AuvId, u32)>, Failure> {
-    let pids = receiver.recv().map_err(|_| Failure::failed("the launcher ended before the run began"))?;
-    Ok((0..).map(AuvId).zip(pids).collect())
 }
 
 /// The launcher's next word; `None` when it is gone.

@@ -1,5 +1,7 @@
 //! The command line.
 
+use std::num::NonZeroU32;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -79,7 +81,7 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
-    /// One AUV; started by `run`
+    /// One AUV, or several; started by `run`
     #[command(hide = true)]
     Auv(AuvArgs),
     /// The water; started by `run`
@@ -111,6 +113,9 @@ pub struct RunArgs {
     /// What carries the messages
     #[arg(long, value_enum, default_value_t = Bus::Iceoryx2)]
     pub bus: Bus,
+    /// Put so many AUVs into each process; one unless given. Never changes the result
+    #[arg(long, value_name = "K", value_parser = parse_auvs_per_process, allow_negative_numbers = true)]
+    pub auvs_per_process: Option<NonZeroU32>,
     /// Seed of every random draw
     #[arg(long, allow_negative_numbers = true)]
     pub seed: Option<u64>,
@@ -225,9 +230,9 @@ pub struct AuvArgs {
     /// Folder of the run
     #[arg(long)]
     pub run: PathBuf,
-    /// Its id
-    #[arg(long)]
-    pub auv: u32,
+    /// Ids of those that this process carries
+    #[arg(long, value_name = "FIRST..END", value_parser = parse_auvs)]
+    pub auvs: Range<u32>,
     /// What carries the messages
     #[arg(long, value_enum)]
     pub bus: Bus,
@@ -282,6 +287,15 @@ fn parse_pace(text: &str) -> Result<Pace, String> {
             }
         }
     }
+}
+
+fn parse_auvs_per_process(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|_| "give a whole number from 1 on, such as `32`".to_owned())
+}
+
+fn parse_auvs(text: &str) -> Result<Range<u32>, String> {
+    let range = text.split_once("..").and_then(|(first, end)| Some(first.parse().ok()?..end.parse().ok()?));
+    range.filter(|range| !range.is_empty()).ok_or_else(|| "give `FIRST..END`, such as `0..32`".to_owned())
 }
 
 fn parse_endpoint(text: &str) -> Result<String, String> {

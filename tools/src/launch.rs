@@ -1,5 +1,6 @@
 //! What the launcher and the channel's process say to each other: JSON lines over pipes.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -13,7 +14,7 @@ use crate::cli::{Bus, Changes, Pace};
 pub enum ToChannel {
     /// What to run; comes first.
     Run(Box<Order>),
-    /// Process ids of the AUVs, in the order of their ids.
+    /// Process ids of the AUVs' seats, in their order.
     Processes(Vec<u32>),
     /// Stop and sum up.
     Stop,
@@ -32,6 +33,8 @@ pub struct Order {
     pub changes: Changes,
     /// Transport.
     pub bus: Bus,
+    /// How many AUVs a process carries.
+    pub auvs_per_process: NonZeroU32,
     /// zenoh endpoint.
     pub endpoint: Option<String>,
     /// Pace.

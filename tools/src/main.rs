@@ -21,6 +21,7 @@ mod record_info;
 mod run;
 mod scenario_order;
 mod scenarios;
+mod seat;
 mod set;
 mod summary_text;
 mod sweep;

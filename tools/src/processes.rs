@@ -15,13 +15,14 @@ use shoal_bus::zenoh::RUNTIME_ENV;
 use crate::cli::Bus;
 use crate::failure::{Failure, While};
 use crate::launch::{FromChannel, Order, ToChannel};
+use crate::seat::Seat;
 
 /// How long processes that were told to end may take.
 pub const FAREWELL: Duration = Duration::from_secs(10);
 /// The same when somebody is waiting for the prompt.
 pub const HASTY_FAREWELL: Duration = Duration::from_secs(2);
 /// How a process ended that did not do so in time.
-pub const KILLED_AT_THE_END: &str = "killed because it did not end when told to";
+const KILLED_AT_THE_END: &str = "killed because it did not end when told to";
 
 /// This program's own file.
 fn executable() -> Result<PathBuf, Failure> {
@@ -76,7 +77,7 @@ impl ChannelProcess {
         serde_json::from_str(&line).while_doing("understand the channel's process")
     }
 
-    /// Tells it who the AUVs are.
+    /// Tells it the processes of the seats.
     pub fn tell_processes(&self, pids: &[u32]) {
         say(&self.input, &ToChannel::Processes(pids.to_vec()));
     }
@@ -126,20 +127,22 @@ fn write_line(input: &Mutex<ChildStdin>, line: &str) {
 /// The AUVs' processes.
 #[derive(Default)]
 pub struct Swarm {
-    children: Vec<Child>,
+    children: Vec<(Seat, Child)>,
     log: Option<PathBuf>,
 }
 
 impl Swarm {
-    /// Starts one process per AUV.
-    pub fn start(&mut self, run: &RunDir, order: &Order, count: u32) -> Result<(), Failure> {
+    /// Starts a process for each seat.
+    pub fn start(&mut self, run: &RunDir, order: &Order, seats: Vec<Seat>) -> Result<(), Failure> {
         let exe = executable()?;
         let log = run.path().join("auvs.log");
         let launcher = std::process::id().to_string();
         let log_file = open_log(&log).while_doing("open a log for the AUVs")?;
-        for auv in 0..count {
+        let count = seats.len();
+        for seat in seats {
             let mut command = command(&exe);
-            command.arg("auv").arg("--run").arg(run.path()).args(["--auv", &auv.to_string()]);
+            let auvs = format!("{}..{}", seat.auvs.start, seat.auvs.end);
+            command.arg("auv").arg("--run").arg(run.path()).args(["--auvs", &auvs]);
             command.args(["--bus", order.bus.name(), "--launcher", &launcher]);
             if let Some(endpoint) = &order.endpoint {
                 command.args(["--endpoint", endpoint]);
@@ -153,42 +156,55 @@ impl Swarm {
                 .stdout(Stdio::null())
                 .stderr(stderr)
                 .spawn()
-                .map_err(|error| too_many(auv, count, &error))?;
-            self.children.push(child);
+                .map_err(|error| too_many(&seat, count, &error))?;
+            self.children.push((seat, child));
         }
         self.log = Some(log);
         Ok(())
     }
 
-    /// Process ids in the order of the AUVs' ids.
+    /// Process ids in the order of the seats.
     pub fn pids(&self) -> Vec<u32> {
-        self.children.iter().map(Child::id).collect()
+        self.children.iter().map(|(_, child)| child.id()).collect()
     }
 
     /// Waits for all to end, which they have been told to, and says how each did: by its status, or in its own last words.
-    pub fn wait(&mut self, patience: Duration) -> Vec<String> {
+    pub fn wait(&mut self, patience: Duration) -> Vec<Ending> {
         let deadline = Instant::now() + patience;
-        let statuses: Vec<_> = self.children.iter_mut().map(|child| end_by(child, deadline)).collect();
+        let statuses: Vec<_> =
+            self.children.iter_mut().map(|(seat, child)| (&*seat, end_by(child, deadline))).collect();
         let log = self.log.as_ref().and_then(|log| std::fs::read_to_string(log).ok()).unwrap_or_default();
-        let ending = |(auv, status): (usize, Option<ExitStatus>)| {
+        let ending = |(seat, status): (&Seat, Option<ExitStatus>)| {
+            let was_killed = status.is_none();
             let status = status.map_or_else(|| KILLED_AT_THE_END.to_owned(), describe);
-            let start = format!("AUV {auv}: ");
-            match log.lines().rev().find_map(|line| line.strip_prefix(&start)) {
+            let start = format!("{}: ", seat.name());
+            let reason = match log.lines().rev().find_map(|line| line.strip_prefix(&start)) {
                 Some(words) => format!("{status}: {words}"),
                 None => status,
-            }
+            };
+            Ending { seat: seat.clone(), reason, was_killed }
         };
-        statuses.into_iter().enumerate().map(ending).collect()
+        statuses.into_iter().map(ending).collect()
     }
+}
+
+/// How the process of a seat ended.
+pub struct Ending {
+    /// Whose.
+    pub seat: Seat,
+    /// How, as a clause.
+    pub reason: String,
+    /// Whether it did not end when it was told to.
+    pub was_killed: bool,
 }
 
 impl Drop for Swarm {
     fn drop(&mut self) {
-        for child in &mut self.children {
+        for (_, child) in &mut self.children {
             // One that has ended already needs no killing.
             let _ended = child.kill();
         }
-        for child in &mut self.children {
+        for (_, child) in &mut self.children {
             let _reaped = child.wait();
         }
     }
@@ -198,10 +214,11 @@ fn open_log(path: &PathBuf) -> std::io::Result<File> {
     OpenOptions::new().create(true).append(true).open(path)
 }
 
-fn too_many(auv: u32, count: u32, error: &std::io::Error) -> Failure {
+fn too_many(seat: &Seat, count: usize, error: &std::io::Error) -> Failure {
     Failure::failed(format!(
-        "the process of AUV {auv} of {count} could not be started: {error}; if this is a limit, raise `ulimit -u` and \
-         `ulimit -n`, or run fewer with --auvs"
+        "the process of {} (one of {count}) could not be started: {error}; if this is a limit, raise `ulimit -u` and \
+         `ulimit -n`, run fewer with --auvs, or let them share with --auvs-per-process",
+        seat.name()
     ))
 }
 

@@ -9,7 +9,7 @@ use shoal_auv::Auv;
 use shoal_bus::local::Local;
 use shoal_bus::lockstep::{Fleet, PROCESS_ENDED};
 use shoal_bus::run_dir::RunDir;
-use shoal_bus::summary::{LostAgent, Memory, Summary};
+use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
 use shoal_scenario::{OnCrash, Scenario};
 
@@ -20,8 +20,9 @@ use crate::failure::{Failure, While};
 use crate::launch::{Done, FromChannel, Order};
 use crate::memory;
 use crate::observers::{Progress, Recorder, Tapped};
-use crate::processes::{ChannelProcess, FAREWELL, HASTY_FAREWELL, KILLED_AT_THE_END, Swarm};
+use crate::processes::{ChannelProcess, Ending as ProcessEnding, FAREWELL, HASTY_FAREWELL, Swarm};
 use crate::progress::Bar;
+use crate::seat::Seat;
 use crate::summary_text;
 
 /// Runs a scenario and prints what it amounts to.
@@ -77,7 +78,7 @@ pub fn interrupts() -> std::io::Result<Arc<AtomicBool>> {
     Ok(flag)
 }
 
-/// A process for the water and one for each AUV.
+/// A process for the water and one for each seat.
 fn in_processes(
     order: &Order,
     scenario: &Scenario,
@@ -92,7 +93,7 @@ fn in_processes(
     loop {
         match channel.next()? {
             FromChannel::Ready => {
-                swarm.start(run, order, scenario.auv_count())?;
+                swarm.start(run, order, Seat::of_run(order, scenario))?;
                 channel.tell_processes(&swarm.pids());
             }
             FromChannel::Started => {
@@ -107,27 +108,27 @@ fn in_processes(
                 channel.wait();
                 let endings = swarm.wait(if done.interrupted { HASTY_FAREWELL } else { FAREWELL });
                 for lost in &mut done.summary.agents.lost {
-                    if let Some(ending) = endings.get(lost.auv as usize) {
+                    let of_its_seat = endings.iter().find(|ending| ending.seat.auvs.contains(&lost.auv));
+                    if let Some(ProcessEnding { reason: ending, .. }) = of_its_seat {
                         lost.reason = match lost.reason.as_str() {
                             PROCESS_ENDED => ending.clone(),
                             reason => format!("{reason}; {ending}"),
                         };
                     }
                 }
-                for (auv, ending) in endings.iter().enumerate() {
-                    if ending == KILLED_AT_THE_END && channel_lost(&done, auv).is_none() {
-                        bar.note(&format!("AUV {auv} did not end when it was told to, and was killed"));
+                for ending in endings.iter().filter(|ending| ending.was_killed) {
+                    let lost = &done.summary.agents.lost;
+                    if !lost.iter().any(|lost| ending.seat.auvs.contains(&lost.auv)) {
+                        let whose = ending.seat.name();
+                        bar.note(&format!(
+                            "the process of {whose} did not end when it was told to, and was killed"
+                        ));
                     }
                 }
                 return Ok(*done);
             }
         }
     }
-}
-
-/// What the summary says of the loss of this AUV, if it was lost.
-fn channel_lost(done: &Done, auv: usize) -> Option<&LostAgent> {
-    done.summary.agents.lost.iter().find(|lost| lost.auv as usize == auv)
 }
 
 /// No processes: the reference.

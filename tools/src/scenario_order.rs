@@ -1,5 +1,7 @@
 //! From names, files and flags to a scenario.
 
+use std::num::NonZeroU32;
+
 use shoal_scenario::{Overrides, Scenario, load, parse};
 
 use crate::cli::{Bus, Changes, RunArgs};
@@ -13,6 +15,11 @@ impl Order {
         if args.endpoint.is_some() && args.bus != Bus::Zenoh {
             return Err(Failure::usage("--endpoint is for zenoh: add `--bus zenoh`, or leave it out"));
         }
+        if args.auvs_per_process.is_some() && args.bus == Bus::Local {
+            return Err(Failure::usage(
+                "--auvs-per-process is for AUVs in processes: add `--bus iceoryx2` or `--bus zenoh`, or leave it out",
+            ));
+        }
         let (source_name, text) = load(&args.scenario).map_err(Failure::usage)?;
         let (source_name, text) = with_settings(&source_name, &text, &args.set)?;
         Ok(Self {
@@ -21,6 +28,7 @@ impl Order {
             seed: args.seed,
             changes: args.changes.clone(),
             bus: args.bus,
+            auvs_per_process: args.auvs_per_process.unwrap_or(NonZeroU32::MIN),
             endpoint: args.endpoint.clone(),
             pace: args.pace,
             record: args.record.clone(),

@@ -1,10 +1,10 @@
-//! The samples: down, one arena with the messages of a whole group; up, one message behind a short header.
+//! The samples: down, one arena with the messages of a whole group; up, those of a process, each behind a short header.
 
 use crate::message::AuvId;
 
 const HEADER: usize = 12;
 const ENTRY: usize = 12;
-const UP_HEADER: usize = 8;
+const UP_HEADER: usize = 12;
 
 /// Builds one group's sample: `sequence`, `window`, count, then (AUV, offset, length) for each message, then the messages.
 /// All of them `u32`, little-endian.
@@ -72,18 +72,20 @@ impl<'a> Arena<'a> {
     }
 }
 
-/// A sample up: whose, answer to which sequence number, and the message.
-pub(super) fn write_answer(auv: AuvId, sequence: u32, message: &[u8]) -> Vec<u8> {
-    let mut sample = Vec::with_capacity(UP_HEADER + message.len());
-    sample.extend(auv.0.to_le_bytes());
-    sample.extend(sequence.to_le_bytes());
+/// Adds to a sample up: whose, answer to which sequence number, and the message.
+pub(super) fn write_answer(sample: &mut Vec<u8>, auv: AuvId, sequence: u32, message: &[u8]) {
+    for word in [auv.0, sequence, message.len() as u32] {
+        sample.extend(word.to_le_bytes());
+    }
     sample.extend_from_slice(message);
-    sample
 }
 
-/// Takes a sample up apart; `None` when it is too short.
-pub(super) fn read_answer(sample: &[u8]) -> Option<(AuvId, u32, &[u8])> {
-    Some((AuvId(word(sample, 0)?), word(sample, 4)?, sample.get(UP_HEADER..)?))
+/// Takes the first answer off a sample up; `None` when it is cut off.
+pub(super) fn read_answer<'a>(sample: &mut &'a [u8]) -> Option<(AuvId, u32, &'a [u8])> {
+    let (auv, sequence, length) = (word(sample, 0)?, word(sample, 4)?, word(sample, 8)? as usize);
+    let (message, rest) = sample.get(UP_HEADER..)?.split_at_checked(length)?;
+    *sample = rest;
+    Some((AuvId(auv), sequence, message))
 }
 
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
@@ -108,7 +110,14 @@ mod tests {
             let _no_panic = Arena::read(&sample[..length], AuvId(3));
         }
         assert_eq!(Arena::read(&[0xff; 40], AuvId(3)), None);
-        assert_eq!(read_answer(&write_answer(AuvId(1), 2, b"x")), Some((AuvId(1), 2, &b"x"[..])));
-        assert_eq!(read_answer(b"short"), None);
+        let mut up = Vec::new();
+        write_answer(&mut up, AuvId(1), 2, b"x");
+        write_answer(&mut up, AuvId(3), 2, b"");
+        let mut rest = &up[..];
+        assert_eq!(read_answer(&mut rest), Some((AuvId(1), 2, &b"x"[..])));
+        assert_eq!(read_answer(&mut rest), Some((AuvId(3), 2, &b""[..])));
+        assert_eq!((read_answer(&mut rest), rest), (None, &b""[..]));
+        assert_eq!(read_answer(&mut &b"short"[..]), None);
+        assert_eq!(read_answer(&mut &up[..12]), None);
     }
 }

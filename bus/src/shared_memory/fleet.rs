@@ -30,10 +30,17 @@ const LOOK_AGAIN: Duration = Duration::from_millis(20);
 /// The same in a window in which an AUV died, perhaps just when it was to wake the channel.
 const LOOK_AGAIN_AFTER_LOSS: Duration = Duration::from_millis(1);
 
-/// Splits AUVs into wake-up groups of at most [`GROUP_MAX`], in their order: sort them by the phase of their ticks first, so
-/// that few groups are due in a short window.
-pub fn wake_groups(auvs: &[AuvId]) -> Vec<Vec<AuvId>> {
-    auvs.chunks(GROUP_MAX).map(<[AuvId]>::to_vec).collect()
+/// Splits the AUVs of processes into wake-up groups of at most [`GROUP_MAX`] (more in a process of more), in the order of the
+/// processes: sort them by the phase of their ticks first, so that few groups are due in a short window.
+pub fn wake_groups(processes: &[Vec<AuvId>]) -> Vec<Vec<AuvId>> {
+    let mut groups: Vec<Vec<AuvId>> = Vec::new();
+    for process in processes {
+        match groups.last_mut() {
+            Some(group) if group.len() + process.len() <= GROUP_MAX => group.extend(process),
+            _ => groups.push(process.clone()),
+        }
+    }
+    groups
 }
 
 /// The channel's end of the `iceoryx2` transport.
@@ -97,9 +104,8 @@ impl SharedMemoryFleet {
             let index = self.index(*auv)?;
             self.members[index].pid = Some(*pid);
             self.shared.has_ended[index].store(false, Ordering::Release);
-            self.watch.attach(*auv, *pid).map_err(failed)?;
         }
-        Ok(())
+        self.watch.attach(processes).map_err(failed)
     }
 
     /// How long live AUVs may be silent before [`FleetError::Stalled`]; 300 s at first.
@@ -216,22 +222,23 @@ impl SharedMemoryFleet {
         let mut gathered: Vec<Option<Result<Vec<Acted>, String>>> = due.iter().map(|_| None).collect();
         let mut has_garbage = false;
         while let Some(sample) = up.receive().map_err(failed)? {
-            let known = read_answer(sample.payload()).and_then(|(auv, sequence, message)| {
-                let at = due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv).ok()?;
-                Some((at, sequence, message))
-            });
-            let Some((at, sequence, message)) = known else {
-                has_garbage = true;
-                continue;
-            };
-            let member = &self.members[due[at].0];
-            if !member.is_alive {
-                continue;
+            let mut left = sample.payload();
+            while !left.is_empty() {
+                let Some((auv, sequence, message)) = read_answer(&mut left) else {
+                    has_garbage = true;
+                    break;
+                };
+                match due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv) {
+                    Ok(at) if self.members[due[at].0].is_alive => {
+                        gathered[at] = Some(match sequence == *expected {
+                            true => read_acted(message, due[at].1),
+                            false => Err(format!("it answered sample {sequence} instead of {expected}")),
+                        });
+                    }
+                    Ok(_) => {}
+                    Err(_) => has_garbage = true,
+                }
             }
-            gathered[at] = Some(match sequence == *expected {
-                true => read_acted(message, due[at].1),
-                false => Err(format!("it answered sample {sequence} instead of {expected}")),
-            });
         }
         for (&(index, _), acted) in due.iter().zip(gathered) {
             let member = &mut self.members[index];
@@ -348,10 +355,10 @@ mod tests {
         let mut fleet = SharedMemoryFleet::create(&run, &[vec![AuvId(4)]]).unwrap();
         let joins = run.clone();
         let auv = std::thread::spawn(move || {
-            let mut link = SharedMemoryLink::join(&joins, AuvId(4)).unwrap();
+            let mut link = SharedMemoryLink::join(&joins, &[AuvId(4)]).unwrap();
             link.receive().unwrap();
             link.answer_with(&samples);
-            link.receive().is_ok_and(|message| message == crate::lockstep::ToAuv::End)
+            link.receive().is_ok_and(|message| message == crate::lockstep::ToProcess::End)
         });
         fleet.wait(vec![0], &mut Vec::new(), |fleet, index| {
             fleet.shared.control.slot(index).pid.load(Ordering::Acquire) != 0
@@ -367,7 +374,11 @@ mod tests {
     #[test]
     fn strange_samples_lose_their_sender_and_missing_ones_are_noticed() {
         let fine = codec::encode(&FromAuv::Acted(Vec::new())).unwrap();
-        let answer = |auv, sequence, message: &[u8]| vec![write_answer(AuvId(auv), sequence, message)];
+        let answer = |auv, sequence, message: &[u8]| {
+            let mut sample = Vec::new();
+            write_answer(&mut sample, AuvId(auv), sequence, message);
+            vec![sample]
+        };
         let acted = vec![Batch { auv: AuvId(4), items: Vec::new() }];
         assert_eq!(window(answer(4, 1, &fine)).unwrap(), Answers { acted, losses: Vec::new() });
         let losses = vec![Loss { auv: AuvId(4), reason: NOT_A_MESSAGE.into() }];
@@ -392,8 +403,17 @@ mod tests {
     #[test]
     fn groups_are_small_and_keep_the_order() {
         let auvs: Vec<AuvId> = (0..70).rev().map(AuvId).collect();
-        let groups = wake_groups(&auvs);
-        assert!(groups.iter().all(|group| group.len() <= GROUP_MAX));
-        assert_eq!(groups.concat(), auvs);
+        for size in [1, 3, 32] {
+            let processes: Vec<Vec<AuvId>> = auvs.chunks(size).map(<[AuvId]>::to_vec).collect();
+            let groups = wake_groups(&processes);
+            assert!(groups.iter().all(|group| group.len() <= GROUP_MAX));
+            assert_eq!(groups.concat(), auvs);
+            assert!(processes.iter().all(|process| {
+                groups
+                    .iter()
+                    .any(|group| group.contains(&process[0]) == group.contains(process.last().unwrap()))
+            }));
+        }
+        assert_eq!(wake_groups(std::slice::from_ref(&auvs)), [auvs.clone()]);
     }
 }

@@ -107,12 +107,11 @@ impl ZenohFleet {
 
     /// Says which process of this host is which AUV, so that its end is noticed; again for one that was restarted.
     pub fn attach_processes(&mut self, processes: &[(AuvId, u32)]) -> Result<(), FleetError> {
-        for (auv, pid) in processes {
+        for (auv, _) in processes {
             let index = self.index(*auv)?;
             self.members[index].has_ended = false;
-            self.watch.attach(*auv, *pid).map_err(failed)?;
         }
-        Ok(())
+        self.watch.attach(processes).map_err(failed)
     }
 
     /// How long live AUVs may be silent before [`FleetError::Stalled`]; 300 s at first.

@@ -6,7 +6,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use shoal_bus::codec::encode;
-use shoal_bus::lockstep::{Answers, Batch, Fleet, FleetError, Link, Loss, Mind, ToAuv, live};
+use shoal_bus::lockstep::{Answers, Batch, Fleet, FleetError, Link, LinkError, Loss, Mind, ToProcess, live};
 use shoal_bus::message::{
     Acted, AuvId, BodyBounds, Born, Bounds, ClockBounds, Controller, Estimator, Event, Measured,
     MediumAccess, ModemBounds, Orders, PlannedPing, Report, Sense, Sensed, Setpoint, Slice, Wake,
@@ -40,10 +40,10 @@ pub fn be_an_auv_if_asked() -> bool {
     if auv == CHANNEL {
         be_a_channel(&bus, &run);
     }
-    let auv = AuvId(auv.parse().unwrap());
+    let auvs: Vec<AuvId> = auv.split(' ').map(|auv| AuvId(auv.parse().unwrap())).collect();
     let mut link: Box<dyn Link> = match bus.as_str() {
-        "iceoryx2" => Box::new(SharedMemoryLink::join(&run, auv).unwrap()),
-        _ => Box::new(ZenohLink::join(&ZenohFleet::local_endpoint(&run), run.id(), auv).unwrap()),
+        "iceoryx2" => Box::new(SharedMemoryLink::join(&run, &auvs).unwrap()),
+        _ => Box::new(ZenohLink::join(&ZenohFleet::local_endpoint(&run), run.id(), &auvs).unwrap()),
     };
     let lived = match read(MANNERS).as_deref() {
         Some("silent") => live_silently(link.as_mut()),
@@ -61,10 +61,9 @@ pub fn be_an_auv_if_asked() -> bool {
 
 /// Runs three AUVs until it is killed.
 fn be_a_channel(bus: &str, run: &RunDir) -> ! {
-    let auvs = auvs(3);
     let mut fleet: Box<dyn Fleet> = match bus {
-        "iceoryx2" => Box::new(SharedMemoryFleet::create(run, &wake_groups(&auvs)).unwrap()),
-        _ => Box::new(ZenohFleet::create(&ZenohFleet::local_endpoint(run), run.id(), &auvs).unwrap()),
+        "iceoryx2" => Box::new(SharedMemoryFleet::create(run, &wake_groups(&seats(3, 1))).unwrap()),
+        _ => Box::new(ZenohFleet::create(&ZenohFleet::local_endpoint(run), run.id(), &auvs(3)).unwrap()),
     };
     std::fs::write(run.path().join(CHANNEL), "ready").unwrap();
     fleet.born(&born(3)).unwrap();
@@ -76,19 +75,19 @@ fn be_a_channel(bus: &str, run: &RunDir) -> ! {
 }
 
 /// Takes its first batch and never answers.
-fn live_silently(link: &mut dyn Link) -> Result<(), shoal_bus::lockstep::LinkError> {
-    while !matches!(link.receive()?, ToAuv::Sensed(_)) {}
+fn live_silently(link: &mut dyn Link) -> Result<(), LinkError> {
+    while !matches!(link.receive()?, ToProcess::Sensed(_)) {}
     std::thread::sleep(Duration::from_secs(600));
     Ok(())
 }
 
 /// Answers nothing to whatever it is asked.
-fn live_tersely(link: &mut dyn Link) -> Result<(), shoal_bus::lockstep::LinkError> {
+fn live_tersely(link: &mut dyn Link) -> Result<(), LinkError> {
     loop {
         match link.receive()? {
-            ToAuv::Born(_) => {}
-            ToAuv::Sensed(_) => link.answer(Vec::new())?,
-            ToAuv::End => return Ok(()),
+            ToProcess::Born(_) => {}
+            ToProcess::Sensed(Batch { auv, .. }) => link.answer(Batch { auv, items: Vec::new() })?,
+            ToProcess::End => return Ok(()),
         }
     }
 }
@@ -142,6 +141,11 @@ pub fn kill_pid(pid: u32) {
 
 pub fn auvs(count: u32) -> Vec<AuvId> {
     (0..count).map(AuvId).collect()
+}
+
+/// The AUVs of each process, `each` of them but for the last.
+fn seats(count: u32, each: u32) -> Vec<Vec<AuvId>> {
+    auvs(count).chunks(each as usize).map(<[AuvId]>::to_vec).collect()
 }
 
 pub fn born(count: u32) -> Vec<Born> {
@@ -231,6 +235,8 @@ pub fn loss(auv: u32, reason: &str) -> Loss {
 /// The processes of a run, and its folder: whatever happens, none of them stays.
 pub struct Crew {
     pub run: RunDir,
+    /// How many AUVs a process carries.
+    pub each: u32,
     children: Vec<Child>,
 }
 
@@ -238,10 +244,10 @@ impl Crew {
     pub fn new() -> Self {
         RunDir::sweep();
         let run = RunDir::create(&serde_json::json!({"scenario": "test"})).unwrap();
-        Self { run, children: Vec::new() }
+        Self { run, each: 1, children: Vec::new() }
     }
 
-    /// Starts `count` AUVs, with `arguments` that make this executable call [`be_an_auv_if_asked`].
+    /// Starts the processes of `count` AUVs, with `arguments` that make this executable call [`be_an_auv_if_asked`].
     pub fn start(
         &mut self,
         bus: &str,
@@ -251,10 +257,14 @@ impl Crew {
     ) -> Vec<(AuvId, u32)> {
         let manners_of =
             |auv: &AuvId| manners.iter().find(|(who, _)| *who == auv.0).map_or("", |(_, how)| how);
-        let start = |auv: AuvId| self.command(bus, auv, arguments, manners_of(&auv)).spawn().unwrap();
-        let children: Vec<Child> = auvs(count).into_iter().map(start).collect();
-        self.children = children;
-        self.children.iter().enumerate().map(|(auv, child)| (AuvId(auv as u32), child.id())).collect()
+        let mut processes = Vec::new();
+        for seat in seats(count, self.each) {
+            let names: Vec<String> = seat.iter().map(AuvId::to_string).collect();
+            let child = self.command(bus, names.join(" "), arguments, manners_of(&seat[0])).spawn().unwrap();
+            processes.extend(seat.iter().map(|auv| (*auv, child.id())));
+            self.children.push(child);
+        }
+        processes
     }
 
     /// Starts a channel in a process of its own, and three AUVs; kills it in the middle of the run, and waits until they
@@ -280,7 +290,8 @@ impl Crew {
 
     /// Starts one AUV whose process has ended once more.
     pub fn start_again(&mut self, bus: &str, auv: u32, arguments: &[&str]) -> (AuvId, u32) {
-        self.children[auv as usize] = self.command(bus, AuvId(auv), arguments, "").spawn().unwrap();
+        self.children[(auv / self.each) as usize] =
+            self.command(bus, AuvId(auv), arguments, "").spawn().unwrap();
         (AuvId(auv), self.pid(auv))
     }
 
@@ -294,18 +305,18 @@ impl Crew {
     }
 
     pub fn pid(&self, auv: u32) -> u32 {
-        self.children[auv as usize].id()
+        self.children[(auv / self.each) as usize].id()
     }
 
     pub fn kill(&mut self, auv: u32) {
-        self.children[auv as usize].kill().unwrap();
+        self.children[(auv / self.each) as usize].kill().unwrap();
     }
 
     /// How AUV `auv` ended; panics if it does not.
     pub fn await_end(&mut self, auv: u32) -> ExitStatus {
         let since = Instant::now();
         loop {
-            if let Some(status) = self.children[auv as usize].try_wait().unwrap() {
+            if let Some(status) = self.children[(auv / self.each) as usize].try_wait().unwrap() {
                 return status;
             }
             assert!(since.elapsed() < Duration::from_secs(60), "AUV {auv} does not end");
@@ -315,8 +326,8 @@ impl Crew {
 
     /// Waits until all have ended by themselves, removes the run, and checks that nothing is left of it.
     pub fn disband(mut self) {
-        for auv in 0..self.children.len() {
-            self.await_end(auv as u32);
+        for process in 0..self.children.len() {
+            self.await_end(process as u32 * self.each);
         }
         self.run.remove().unwrap();
         let left = std::fs::read_dir("/dev/shm").unwrap().flatten().map(|entry| entry.file_name());
@@ -330,7 +341,7 @@ impl Crew {
         arguments: &[&str],
         manners: &[(u32, &str)],
     ) -> SharedMemoryFleet {
-        let mut fleet = SharedMemoryFleet::create(&self.run, &wake_groups(&auvs(count))).unwrap();
+        let mut fleet = SharedMemoryFleet::create(&self.run, &wake_groups(&seats(count, self.each))).unwrap();
         let processes = self.start("iceoryx2", count, arguments, manners);
         fleet.attach_processes(&processes).unwrap();
         fleet
