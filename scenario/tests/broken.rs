@@ -35,6 +35,7 @@ macro_rules! broken {
 }
 
 broken! {
+    outliers_impossible: "outliers-impossible",
     syntax: "syntax",
     unknown_key: "unknown-key",
     wrong_types: "wrong-types",
@@ -74,4 +75,5 @@ broken! {
     modem_unknown: "modem-unknown",
     access_impossible: "access-impossible",
     bearing_impossible: "bearing-impossible",
+    command_impossible: "command-impossible",
 }

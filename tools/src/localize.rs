@@ -123,9 +123,9 @@ pub struct DatasetBounds {
     /// For `ekf`: standard deviation of the ranges, in metres; as ranges.csv states it unless given
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub sigma_m: Option<f64>,
-    /// For `ekf`: ranges that surprise by more standard deviations are rejected; 0 for none
-    #[arg(long, value_name = "SIGMAS", default_value_t = 3.0, value_parser = bound)]
-    pub gate: f64,
+    /// For `ekf`: ranges that surprise by more standard deviations are rejected; 0 for none [default: 3]
+    #[arg(long, value_name = "SIGMAS", value_parser = bound)]
+    pub gate: Option<f64>,
 }
 
 /// Where a mission begins.
@@ -156,6 +156,27 @@ impl FirstPose {
     }
 }
 
+impl DatasetBounds {
+    /// The filter's gate in standard deviations; `None` when it believes every range.
+    fn gate_sigma(&self) -> Option<f64> {
+        Some(self.gate.unwrap_or(3.0)).filter(|gate| *gate > 0.0)
+    }
+}
+
+impl LocalizeArgs {
+    /// Refuses what only a Kalman filter heeds, when another estimator is asked for.
+    fn of_the_filter(&self) -> Result<(), Failure> {
+        let given = [("--gate", self.bounds.gate), ("--sigma-m", self.bounds.sigma_m)];
+        match given.into_iter().find(|(_, value)| value.is_some()) {
+            Some((flag, _)) if self.estimator != EstimatorKind::Ekf => Err(Failure::usage(format!(
+                "{flag} means nothing to --estimator {}: leave it out, or choose `--estimator ekf`",
+                self.estimator.name()
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
 /// Localizes, prints how well, and writes what was found.
 pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
     match (&args.record, &args.dataset) {
@@ -163,7 +184,10 @@ pub fn localize(args: &LocalizeArgs) -> Result<Exit, Failure> {
             "both a record and a data set are given: choose `RECORD --offline` or `--dataset DIR`",
         )),
         (Some(record), None) if args.offline => offline::localize(record, args),
-        (None, Some(folder)) => dataset::localize(folder, args),
+        (None, Some(folder)) => {
+            args.of_the_filter()?;
+            dataset::localize(folder, args)
+        }
         (Some(_), None) => Err(Failure::usage(
             "say how to localize: add `--offline` for all trajectories of the record together",
         )),

@@ -38,7 +38,7 @@ fn main() {
             let best_ns = (0..passes).map(|_| pass_ns(fading, others)).fold(f64::INFINITY, f64::min);
             let growth = best_ns / *alone_ns.get_or_insert(best_ns);
             println!(
-                r#"{{"schema":"shoal.bench/1","name":"{name}","value":{best_ns:.0},"unit":"ns","growth":{growth:.1}}}"#
+                r#"{{"format":"shoal.bench/1","name":"{name}","value":{best_ns:.0},"unit":"ns","growth":{growth:.1}}}"#
             );
         }
     }

@@ -116,7 +116,7 @@ impl Bench {
         if self.filters.iter().all(|filter| name.contains(filter.as_str())) {
             let ns = self.time(operands, operation) / parts;
             println!(
-                r#"{{"schema":"shoal.bench/1","name":"interval/{name}","value":{ns:.1},"unit":"ns","additions":{:.1}}}"#,
+                r#"{{"format":"shoal.bench/1","name":"interval/{name}","value":{ns:.1},"unit":"ns","additions":{:.1}}}"#,
                 ns / add_ns
             );
         }

@@ -7,7 +7,8 @@
 //! Source: seed 001, equations (2.8) to (2.14).
 
 use crate::interval::Interval;
-use crate::rounding::{add_down, add_up, div_down, div_up, mul_down, mul_up, sub_down, sub_up};
+use crate::lanes;
+use crate::rounding::{add_down, add_up, div_down, div_up, mul_down, mul_up};
 use crate::set::{larger, smaller};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -16,7 +17,8 @@ impl Neg for Interval {
 
     #[inline]
     fn neg(self) -> Interval {
-        if self.is_empty() { self } else { Interval::from_bounds(-self.upper(), -self.lower()) }
+        let [lower, neg_upper] = self.lower_bounds();
+        Interval::from_lower_bounds(neg_upper, lower)
     }
 }
 
@@ -25,10 +27,10 @@ impl Add for Interval {
 
     #[inline]
     fn add(self, other: Interval) -> Interval {
-        if self.is_empty() || other.is_empty() {
-            return Interval::EMPTY;
+        match lanes::sums(&[self], &[other]) {
+            Some([sum]) => sum,
+            None => add_with_care(self, other),
         }
-        Interval::from_bounds(add_down(self.lower(), other.lower()), add_up(self.upper(), other.upper()))
     }
 }
 
@@ -37,48 +39,19 @@ impl Sub for Interval {
 
     #[inline]
     fn sub(self, other: Interval) -> Interval {
-        if self.is_empty() || other.is_empty() {
-            return Interval::EMPTY;
-        }
-        Interval::from_bounds(sub_down(self.lower(), other.upper()), sub_up(self.upper(), other.lower()))
+        self + -other
     }
 }
 
 impl Mul for Interval {
     type Output = Interval;
 
-    /// Two products are enough when a factor does not change sign; only when both do are four needed.
     #[inline]
     fn mul(self, other: Interval) -> Interval {
-        if self.is_empty() || other.is_empty() {
-            return Interval::EMPTY;
+        match lanes::products(&[self], other) {
+            Some([product]) => product,
+            None => multiply_with_care(self, other),
         }
-        let (a, b) = (self.lower(), self.upper());
-        let (c, d) = (other.lower(), other.upper());
-        let (lower, upper) = if a >= 0.0 {
-            if c >= 0.0 {
-                (mul_down(a, c), mul_up(b, d))
-            } else if d <= 0.0 {
-                (mul_down(b, c), mul_up(a, d))
-            } else {
-                (mul_down(b, c), mul_up(b, d))
-            }
-        } else if b <= 0.0 {
-            if c >= 0.0 {
-                (mul_down(a, d), mul_up(b, c))
-            } else if d <= 0.0 {
-                (mul_down(b, d), mul_up(a, c))
-            } else {
-                (mul_down(a, d), mul_up(a, c))
-            }
-        } else if c >= 0.0 {
-            (mul_down(a, d), mul_up(b, d))
-        } else if d <= 0.0 {
-            (mul_down(b, c), mul_up(a, c))
-        } else {
-            (smaller(mul_down(a, d), mul_down(b, c)), larger(mul_up(a, c), mul_up(b, d)))
-        };
-        Interval::from_bounds(lower, upper)
     }
 }
 
@@ -99,6 +72,50 @@ impl Div for Interval {
         }
         divide_across_zero(self, other)
     }
+}
+
+/// The sum, whatever the bounds are.
+#[cold]
+fn add_with_care(x: Interval, y: Interval) -> Interval {
+    if x.is_empty() || y.is_empty() {
+        return Interval::EMPTY;
+    }
+    Interval::from_bounds(add_down(x.lower(), y.lower()), add_up(x.upper(), y.upper()))
+}
+
+/// The product, whatever the bounds are. Two products of numbers are enough when a factor does not change sign; only when both do
+/// are four needed.
+#[cold]
+fn multiply_with_care(x: Interval, y: Interval) -> Interval {
+    if x.is_empty() || y.is_empty() {
+        return Interval::EMPTY;
+    }
+    let (a, b) = (x.lower(), x.upper());
+    let (c, d) = (y.lower(), y.upper());
+    let (lower, upper) = if a >= 0.0 {
+        if c >= 0.0 {
+            (mul_down(a, c), mul_up(b, d))
+        } else if d <= 0.0 {
+            (mul_down(b, c), mul_up(a, d))
+        } else {
+            (mul_down(b, c), mul_up(b, d))
+        }
+    } else if b <= 0.0 {
+        if c >= 0.0 {
+            (mul_down(a, d), mul_up(b, c))
+        } else if d <= 0.0 {
+            (mul_down(b, d), mul_up(a, c))
+        } else {
+            (mul_down(a, d), mul_up(a, c))
+        }
+    } else if c >= 0.0 {
+        (mul_down(a, d), mul_up(b, d))
+    } else if d <= 0.0 {
+        (mul_down(b, c), mul_up(a, c))
+    } else {
+        (smaller(mul_down(a, d), mul_down(b, c)), larger(mul_up(a, c), mul_up(b, d)))
+    };
+    Interval::from_bounds(lower, upper)
 }
 
 #[inline]

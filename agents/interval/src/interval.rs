@@ -1,7 +1,8 @@
 //! The interval: what it is, how it is made, how it is measured.
 
 use crate::error::IntervalError;
-use crate::rounding::{add_up, sub_down};
+use crate::lanes;
+use crate::rounding::{add_down, add_up};
 use crate::set::larger;
 
 /// A closed set of real numbers `{x : lower <= x <= upper}`, possibly empty, possibly unbounded.
@@ -23,24 +24,26 @@ use crate::set::larger;
 #[derive(Clone, Copy, PartialEq)]
 pub struct Interval {
     lower: f64,
-    upper: f64,
+    /// Minus the upper bound, so that both are rounded down, by the same instructions (B. Lambov, *Interval arithmetic using
+    /// SSE-2*, LNCS 5045, 2008).
+    neg_upper: f64,
 }
 
 impl Interval {
     /// The empty set: no number satisfies everything that was asked. Its bounds are `(+inf, -inf)`.
-    pub const EMPTY: Interval = Interval { lower: f64::INFINITY, upper: f64::NEG_INFINITY };
+    pub const EMPTY: Interval = Interval { lower: f64::INFINITY, neg_upper: f64::INFINITY };
 
     /// All real numbers: nothing is known.
-    pub const ENTIRE: Interval = Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+    pub const ENTIRE: Interval = Interval { lower: f64::NEG_INFINITY, neg_upper: f64::NEG_INFINITY };
 
     /// The number zero.
-    pub const ZERO: Interval = Interval { lower: 0.0, upper: 0.0 };
+    pub const ZERO: Interval = Interval { lower: 0.0, neg_upper: -0.0 };
 
     /// The number one.
-    pub const ONE: Interval = Interval { lower: 1.0, upper: 1.0 };
+    pub const ONE: Interval = Interval { lower: 1.0, neg_upper: -1.0 };
 
     /// All numbers from zero up.
-    pub const NON_NEGATIVE: Interval = Interval { lower: 0.0, upper: f64::INFINITY };
+    pub const NON_NEGATIVE: Interval = Interval { lower: 0.0, neg_upper: f64::NEG_INFINITY };
 
     /// The interval from `lower` to `upper`, both included; an infinite bound means no bound on that side.
     ///
@@ -54,7 +57,7 @@ impl Interval {
         } else if lower == upper && lower.is_infinite() {
             Err(IntervalError::BeyondReals { bound: lower })
         } else {
-            Ok(Interval { lower, upper })
+            Ok(Interval { lower, neg_upper: -upper })
         }
     }
 
@@ -78,11 +81,12 @@ impl Interval {
     /// assert_eq!(Interval::spanning(3.0, f64::NAN), Interval::ENTIRE);
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
+    #[inline]
     pub fn spanning(one: f64, other: f64) -> Interval {
         if one.is_nan() || other.is_nan() {
             return Interval::ENTIRE;
         }
-        Interval { lower: one.min(other).min(f64::MAX), upper: one.max(other).max(f64::MIN) }
+        Interval { lower: one.min(other).min(f64::MAX), neg_upper: -one.max(other).max(f64::MIN) }
     }
 
     /// All numbers within `radius` of `mid`, rounded outwards.
@@ -99,13 +103,10 @@ impl Interval {
     /// ```
     #[inline]
     pub fn centred(mid: f64, radius: f64) -> Interval {
-        if !mid.is_finite() || radius.is_nan() {
-            return Interval::ENTIRE;
+        match lanes::centred(mid, radius) {
+            Some(interval) if radius >= 0.0 => interval,
+            _ => centred_with_care(mid, radius),
         }
-        if radius < 0.0 {
-            return Interval::EMPTY;
-        }
-        Interval { lower: sub_down(mid, radius), upper: add_up(mid, radius) }
     }
 
     /// The interval with these bounds. The caller has made sure that they are not NaN and that at least one real number
@@ -113,7 +114,19 @@ impl Interval {
     #[inline]
     pub(crate) const fn from_bounds(lower: f64, upper: f64) -> Interval {
         debug_assert!(lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY);
-        Interval { lower, upper }
+        Interval { lower, neg_upper: -upper }
+    }
+
+    /// [`from_bounds`](Interval::from_bounds) with minus the upper bound.
+    #[inline]
+    pub(crate) const fn from_lower_bounds(lower: f64, neg_upper: f64) -> Interval {
+        Interval { lower, neg_upper }
+    }
+
+    /// The lower bound and minus the upper one.
+    #[inline]
+    pub(crate) const fn lower_bounds(self) -> [f64; 2] {
+        [self.lower, self.neg_upper]
     }
 
     /// The lower bound; `-inf` when there is none, `+inf` for the empty set.
@@ -125,7 +138,7 @@ impl Interval {
     /// The upper bound; `+inf` when there is none, `-inf` for the empty set.
     #[inline]
     pub const fn upper(self) -> f64 {
-        self.upper
+        -self.neg_upper
     }
 
     /// A number near the middle, always finite and inside the interval; NaN for the empty set, which has none.
@@ -140,9 +153,10 @@ impl Interval {
         if self == Interval::ENTIRE {
             return 0.0;
         }
-        let sum = self.lower + self.upper;
-        let middle = if sum.is_finite() { 0.5 * sum } else { 0.5 * self.lower + 0.5 * self.upper };
-        middle.clamp(self.lower, self.upper).clamp(f64::MIN, f64::MAX)
+        let (lower, upper) = (self.lower(), self.upper());
+        let sum = lower + upper;
+        let middle = if sum.is_finite() { 0.5 * sum } else { 0.5 * lower + 0.5 * upper };
+        middle.clamp(lower, upper).clamp(f64::MIN, f64::MAX)
     }
 
     /// The distance between the bounds, rounded up; `+inf` when unbounded, NaN for the empty set.
@@ -150,7 +164,7 @@ impl Interval {
     /// Source: seed 001, equation (2.7).
     #[inline]
     pub fn width(self) -> f64 {
-        if self.is_empty() { f64::NAN } else { add_up(self.upper, -self.lower) }
+        if self.is_empty() { f64::NAN } else { -add_down(self.neg_upper, self.lower) }
     }
 
     /// The smallest radius that reaches all of the interval from [`mid`](Interval::mid), rounded up; `+inf` when unbounded,
@@ -178,32 +192,44 @@ impl Interval {
     /// The largest absolute value in the interval; NaN for the empty set.
     #[inline]
     pub fn magnitude(self) -> f64 {
-        if self.is_empty() { f64::NAN } else { self.lower.abs().max(self.upper.abs()) }
+        if self.is_empty() { f64::NAN } else { self.lower.abs().max(self.neg_upper.abs()) }
     }
 
     /// The smallest absolute value in the interval; NaN for the empty set.
     #[inline]
     pub fn mignitude(self) -> f64 {
-        if self.is_empty() { f64::NAN } else { 0.0_f64.max(self.lower).max(-self.upper) }
+        if self.is_empty() { f64::NAN } else { 0.0_f64.max(self.lower).max(self.neg_upper) }
     }
 
     /// Whether no number is in the set.
     #[inline]
     pub const fn is_empty(self) -> bool {
-        self.lower > self.upper
+        self.lower > -self.neg_upper
     }
 
     /// Whether the set lies between two finite numbers. The empty set does.
     #[inline]
     pub const fn is_bounded(self) -> bool {
-        self.is_empty() || (self.lower > f64::NEG_INFINITY && self.upper < f64::INFINITY)
+        self.is_empty() || (self.lower > f64::NEG_INFINITY && self.neg_upper > f64::NEG_INFINITY)
     }
 
     /// Whether the set holds exactly one number.
     #[inline]
     pub const fn is_point(self) -> bool {
-        self.lower == self.upper
+        self.lower == -self.neg_upper
     }
+}
+
+/// [`Interval::centred`], whatever the arguments are.
+#[cold]
+fn centred_with_care(mid: f64, radius: f64) -> Interval {
+    if !mid.is_finite() || radius.is_nan() {
+        return Interval::ENTIRE;
+    }
+    if radius < 0.0 {
+        return Interval::EMPTY;
+    }
+    Interval { lower: add_down(mid, -radius), neg_upper: add_down(-mid, -radius) }
 }
 
 #[cfg(test)]

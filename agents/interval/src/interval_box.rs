@@ -1,6 +1,7 @@
 //! The box: a product of intervals.
 
 use crate::interval::Interval;
+use crate::lanes;
 use nalgebra::SVector;
 use std::ops::{BitAnd, BitOr, Index, IndexMut};
 
@@ -46,10 +47,29 @@ impl<const N: usize> IntervalBox<N> {
         IntervalBox::from(std::array::from_fn(|axis| Interval::centred(mid[axis], radius)))
     }
 
+    /// The smallest box that holds both vectors, by the rules of [`Interval::spanning`] along each axis.
+    ///
+    /// ```
+    /// use nalgebra::Vector2;
+    /// use shoal_interval::{Interval, IntervalBox};
+    ///
+    /// let leg_m = IntervalBox::spanning(&Vector2::new(3.0, 0.0), &Vector2::new(-1.0, 2.0));
+    /// assert_eq!(leg_m[0], Interval::new(-1.0, 3.0)?);
+    /// # Ok::<(), shoal_interval::IntervalError>(())
+    /// ```
+    #[inline]
+    pub fn spanning(one: &SVector<f64, N>, other: &SVector<f64, N>) -> IntervalBox<N> {
+        let (one, other) = (std::array::from_fn(|axis| one[axis]), std::array::from_fn(|axis| other[axis]));
+        let sides = lanes::spanning(&one, &other);
+        let with_care = || std::array::from_fn(|axis| Interval::spanning(one[axis], other[axis]));
+        IntervalBox { sides: sides.unwrap_or_else(with_care) }
+    }
+
     /// Whether no vector is in the box.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.sides.iter().any(|side| side.is_empty())
+        // Without a branch for each side.
+        self.sides.iter().fold(false, |empty, side| empty | side.is_empty())
     }
 
     /// Whether every side lies between two finite numbers. The empty box does.
@@ -66,7 +86,11 @@ impl<const N: usize> IntervalBox<N> {
     /// The vectors that are in both boxes; also written `x & y`. Exact.
     #[inline]
     pub fn intersection(&self, other: &IntervalBox<N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] & other.sides[axis]) }.or_empty()
+        let mut sides = self.sides;
+        for (side, other) in sides.iter_mut().zip(&other.sides) {
+            *side = side.common_bounds(*other);
+        }
+        IntervalBox { sides }.or_empty()
     }
 
     /// The smallest box that holds both; also written `x | y`. Exact.
@@ -78,7 +102,11 @@ impl<const N: usize> IntervalBox<N> {
         if other.is_empty() {
             return *self;
         }
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] | other.sides[axis]) }
+        let mut sides = self.sides;
+        for (side, other) in sides.iter_mut().zip(&other.sides) {
+            *side = side.hull(*other);
+        }
+        IntervalBox { sides }
     }
 
     /// The sides, in the order of the axes.

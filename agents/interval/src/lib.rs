@@ -155,6 +155,7 @@ pub mod fuzzy;
 mod interval;
 mod interval_box;
 mod interval_matrix;
+mod lanes;
 mod membership;
 pub mod paving;
 mod reverse;

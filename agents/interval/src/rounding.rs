@@ -12,7 +12,7 @@
 mod extreme;
 
 /// Above 2^-960 the error of a product is a number that `f64` can hold; below it may vanish.
-const ERROR_IS_EXACT_ABOVE_BITS: u64 = (1023 - 960) << 52;
+pub(crate) const ERROR_IS_EXACT_ABOVE_BITS: u64 = (1023 - 960) << 52;
 const SIGN_BIT: u64 = 1 << 63;
 
 /// `a + b`, rounded down. The infinities that bounds may hold (`-inf` on the left side of an interval) stay.
@@ -111,7 +111,7 @@ fn has_exact_error(x: f64) -> bool {
 
 /// `x`, or the next number below it when `step` says so, without a branch. `x` is finite, and not zero if there is a step.
 #[inline]
-fn step_down_if(step: bool, x: f64) -> f64 {
+pub(crate) fn step_down_if(step: bool, x: f64) -> f64 {
     let bits = x.to_bits();
     // One bit less is a step towards zero: down for a positive number, up for a negative one.
     let down = (bits.cast_signed() >> 63) | 1;

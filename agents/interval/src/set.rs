@@ -30,9 +30,8 @@ impl Interval {
     /// Source: seed 001, equation (2.3).
     #[inline]
     pub fn intersection(self, other: Interval) -> Interval {
-        let lower = larger(self.lower(), other.lower());
-        let upper = smaller(self.upper(), other.upper());
-        if lower <= upper { Interval::from_bounds(lower, upper) } else { Interval::EMPTY }
+        let both = self.common_bounds(other);
+        if both.is_empty() { Interval::EMPTY } else { both }
     }
 
     /// The smallest interval that holds both; also written `x | y`. Exact.
@@ -50,9 +49,17 @@ impl Interval {
     #[inline]
     pub fn hull(self, other: Interval) -> Interval {
         // The bounds of the empty set, (+inf, -inf), are neutral here.
-        let lower = smaller(self.lower(), other.lower());
-        let upper = larger(self.upper(), other.upper());
-        if lower <= upper { Interval::from_bounds(lower, upper) } else { Interval::EMPTY }
+        let [lower, neg_upper] = self.lower_bounds();
+        let [other_lower, other_neg_upper] = other.lower_bounds();
+        Interval::from_lower_bounds(smaller(lower, other_lower), smaller(neg_upper, other_neg_upper))
+    }
+
+    /// The larger of the lower bounds and the smaller of the upper bounds, which are inverted when nothing is in both sets.
+    #[inline]
+    pub(crate) fn common_bounds(self, other: Interval) -> Interval {
+        let [lower, neg_upper] = self.lower_bounds();
+        let [other_lower, other_neg_upper] = other.lower_bounds();
+        Interval::from_lower_bounds(larger(lower, other_lower), larger(neg_upper, other_neg_upper))
     }
 
     /// Everything within `radius` of the set, rounded outwards: `self + [-radius, radius]`.

@@ -62,7 +62,7 @@ impl Bench {
         };
         let best_ns = (0..passes).map(pass).fold(f64::INFINITY, f64::min);
         println!(
-            r#"{{"schema":"shoal.bench/1","name":"tube/interval_addition","value":{best_ns:.1},"unit":"ns"}}"#
+            r#"{{"format":"shoal.bench/1","name":"tube/interval_addition","value":{best_ns:.1},"unit":"ns"}}"#
         );
     }
 
@@ -169,7 +169,7 @@ impl Bench {
             let best_ms =
                 (0..runs).map(|_| sinusoid_ms(passes).expect("one domain")).fold(f64::INFINITY, f64::min);
             println!(
-                r#"{{"schema":"shoal.bench/1","name":"tube/sinusoid/{name}","slices":2000,"value":{best_ms:.2},"unit":"ms","seed":{seed_ms}}}"#
+                r#"{{"format":"shoal.bench/1","name":"tube/sinusoid/{name}","slices":2000,"value":{best_ms:.2},"unit":"ms","seed":{seed_ms}}}"#
             );
         }
     }
@@ -277,7 +277,7 @@ fn report(name: &str, count: usize, value: f64, unit: &str, goal: &str, smaller:
     let growth = smaller.map_or(String::new(), |smaller| format!(r#","growth":{:.2}"#, value / smaller));
     let goal = if goal.is_empty() { String::new() } else { format!(r#","goal":"{goal}""#) };
     println!(
-        r#"{{"schema":"shoal.bench/1","name":"tube/{name}","slices":{count},"value":{value:.1},"unit":"{unit}"{growth}{goal}}}"#
+        r#"{{"format":"shoal.bench/1","name":"tube/{name}","slices":{count},"value":{value:.1},"unit":"{unit}"{growth}{goal}}}"#
     );
     *smaller = Some(value);
 }

@@ -22,7 +22,7 @@ pub fn localize(folder: &Path, args: &LocalizeArgs) -> Result<Exit, Failure> {
     let start = start(&dataset, args)?;
     let (track, report) = estimate(&dataset, &start, args);
     if let Some(out) = &args.out {
-        let svg = map::figure(&dataset, &track, &report).to_svg();
+        let svg = map::figure(&dataset, &track, &report, &title(args)).to_svg();
         std::fs::write(out, svg).map_err(|error| {
             Failure::failed(format!("{}: the figure cannot be written: {error}", out.display()))
         })?;
@@ -35,6 +35,16 @@ pub fn localize(folder: &Path, args: &LocalizeArgs) -> Result<Exit, Failure> {
     // A reader that has enough closes the pipe.
     let _closed = writeln!(std::io::stdout().lock(), "{}", text.trim_end());
     Ok(Exit::Good)
+}
+
+/// What the figure is called.
+fn title(args: &LocalizeArgs) -> String {
+    let filter = match (args.estimator, args.bounds.gate_sigma()) {
+        (EstimatorKind::Ekf, Some(gate)) => format!(", gate {gate} sigma"),
+        (EstimatorKind::Ekf, None) => ", no gate".to_owned(),
+        _ => String::new(),
+    };
+    format!("Localized by {}{filter}", args.estimator.name())
 }
 
 /// Runs the estimator of the command line.
@@ -54,7 +64,7 @@ pub(super) fn estimate(dataset: &Dataset, start: &Start, args: &LocalizeArgs) ->
                 relative: odometry.relative,
                 turn_rad: odometry.turn_rad,
                 sigma_m: args.bounds.sigma_m,
-                gate: Some(args.bounds.gate).filter(|gate| *gate > 0.0),
+                gate: args.bounds.gate_sigma(),
             };
             let track = ekf(mission, start, &settings);
             let report = Report::new(name, &track, true, dataset);
@@ -150,8 +160,7 @@ fn told(dataset: &Dataset, start: &Start, args: &LocalizeArgs, report: &Report) 
         )),
         EstimatorKind::Ekf => {
             let sigma = bounds.sigma_m.map_or("as stated".to_owned(), |sigma_m| format!("{sigma_m} m"));
-            let gate =
-                if bounds.gate > 0.0 { format!("gate {} sigma", bounds.gate) } else { "no gate".to_owned() };
+            let gate = bounds.gate_sigma().map_or("no gate".to_owned(), |gate| format!("gate {gate} sigma"));
             text.push_str(&format!("  ranges       standard deviation {sigma}, {gate}\n"));
         }
     }

@@ -16,7 +16,7 @@ const REJECTED: Mark = Mark::new(Shape::Cross, Colour::Vermillion);
 const ENCLOSURES: usize = 60;
 
 /// Draws a track.
-pub fn figure(dataset: &Dataset, track: &Track, report: &Report) -> Figure {
+pub fn figure(dataset: &Dataset, track: &Track, report: &Report, title: &str) -> Figure {
     let reference = dataset.reference.is_some();
     let mut legend = vec![
         Entry::new(Sample::Line(ESTIMATE), "centre of the enclosure, its error"),
@@ -33,7 +33,7 @@ pub fn figure(dataset: &Dataset, track: &Track, report: &Report) -> Figure {
     legend.extend(report.centre_rms_m.map(|rms_m| remark(format!("error {rms_m:.2} m (RMS)"))));
     legend.push(remark(format!("{} ranges rejected", report.ranges_rejected)));
     Figure {
-        title: format!("Localized by {}", report.estimator),
+        title: title.to_owned(),
         subtitle: format!(
             "{} poses, {} ranges to {} beacons ({})",
             report.poses,

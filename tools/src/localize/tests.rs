@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use super::dataset::{estimate, start};
 use super::files::Dataset;
 use super::report::Report;
-use super::{LocalizeArgs, map};
+use super::{LocalizeArgs, localize, map};
 use crate::figure::assert_well_formed;
 
 /// Names the folder of the GOATS'02 data.
@@ -128,9 +128,9 @@ fn the_figure_and_the_json() {
     let args = args(folder.path(), "--range-m 3");
     let dataset = Dataset::read(folder.path()).unwrap();
     let (track, report) = estimate(&dataset, &start(&dataset, &args).unwrap(), &args);
-    let svg = map::figure(&dataset, &track, &report).to_svg();
+    let svg = map::figure(&dataset, &track, &report, "Two beacons").to_svg();
     assert_well_formed(&svg);
-    assert!(svg.contains("Localized by tube") && svg.contains("17 ranges rejected"));
+    assert!(svg.contains("Two beacons") && svg.contains("17 ranges rejected"));
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!((&json["format"], &json["estimator"]), (&"shoal.localize/1".into(), &"tube".into()));
     assert_eq!((&json["poses"], &json["ranges_rejected"]), (&150.into(), &17.into()));
@@ -213,6 +213,16 @@ fn arguments() {
         assert!(refused(wrong), "{wrong}");
     }
     assert!(!refused("--start -1.5,2,-3") && !refused("--gate 0 --sigma-m 5"));
+}
+
+#[test]
+fn what_only_the_filter_heeds_is_refused_elsewhere() {
+    let folder = synthetic();
+    let refusal = |more: &str| localize(&args(folder.path(), more)).err().map(|failure| failure.message);
+    let told = refusal("--estimator tube --gate 3").unwrap();
+    assert!(told.contains("--gate means nothing to --estimator tube"), "{told}");
+    assert!(refusal("--estimator dead-reckoning --sigma-m 2").is_some());
+    assert_eq!(refusal("--estimator ekf --gate 3 --sigma-m 2"), None);
 }
 
 /// Published-style baselines on the same file: dead reckoning 5.81 m, gated filter 5.28-5.31 m, ungated 14.5-16.2 m.

@@ -2,6 +2,7 @@
 
 use super::IntervalBox;
 use crate::interval::Interval;
+use crate::lanes;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 impl<const N: usize> IntervalBox<N> {
@@ -69,12 +70,26 @@ fn sum(mut terms: impl Iterator<Item = Interval>) -> Interval {
     terms.fold(first, |total, term| total + term)
 }
 
+/// What `operation` makes of each side of one box with that of the other.
+#[cold]
+fn side_by_side<const N: usize>(
+    one: &IntervalBox<N>,
+    other: &IntervalBox<N>,
+    operation: impl Fn(Interval, Interval) -> Interval,
+) -> IntervalBox<N> {
+    IntervalBox { sides: std::array::from_fn(|axis| operation(one.sides[axis], other.sides[axis])) }
+        .or_empty()
+}
+
 impl<const N: usize> Add for IntervalBox<N> {
     type Output = IntervalBox<N>;
 
     #[inline]
     fn add(self, other: IntervalBox<N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] + other.sides[axis]) }.or_empty()
+        match lanes::sums(&self.sides, &other.sides) {
+            Some(sides) => IntervalBox { sides },
+            None => side_by_side(&self, &other, |own, side| own + side),
+        }
     }
 }
 
@@ -83,7 +98,10 @@ impl<const N: usize> Sub for IntervalBox<N> {
 
     #[inline]
     fn sub(self, other: IntervalBox<N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis] - other.sides[axis]) }.or_empty()
+        match lanes::differences(&self.sides, &other.sides) {
+            Some(sides) => IntervalBox { sides },
+            None => side_by_side(&self, &other, |own, side| own - side),
+        }
     }
 }
 
@@ -116,7 +134,10 @@ impl<const N: usize> Mul<Interval> for IntervalBox<N> {
 
     #[inline]
     fn mul(self, factor: Interval) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| side * factor) }.or_empty()
+        match lanes::products(&self.sides, factor) {
+            Some(sides) => IntervalBox { sides },
+            None => side_by_side(&self, &IntervalBox { sides: [factor; N] }, |own, factor| own * factor),
+        }
     }
 }
 
@@ -126,7 +147,7 @@ impl<const N: usize> Mul<f64> for IntervalBox<N> {
 
     #[inline]
     fn mul(self, factor: f64) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| side * factor) }.or_empty()
+        self * Interval::spanning(factor, factor)
     }
 }
 

@@ -61,7 +61,7 @@ impl<const N: usize> IntervalBox<N> {
     /// Everything within `radius` of the box along each axis, by the rules of [`Interval::inflate`].
     #[inline]
     pub fn inflate(&self, radius: f64) -> IntervalBox<N> {
-        IntervalBox { sides: self.sides.map(|side| side.inflate(radius)) }.or_empty()
+        *self + IntervalBox { sides: [Interval::centred(0.0, radius); N] }
     }
 
     /// Everything within `radii[axis]` of the box along each axis, by the rules of [`Interval::inflate`].
@@ -76,6 +76,10 @@ impl<const N: usize> IntervalBox<N> {
     /// ```
     #[inline]
     pub fn inflate_axes(&self, radii: &SVector<f64, N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis].inflate(radii[axis])) }.or_empty()
+        let mut around = [Interval::ZERO; N];
+        for (side, &radius) in around.iter_mut().zip(radii.iter()) {
+            *side = Interval::centred(0.0, radius);
+        }
+        *self + IntervalBox { sides: around }
     }
 }
