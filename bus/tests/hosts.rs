@@ -5,14 +5,15 @@
 mod crew;
 
 use std::net::TcpListener;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crew::{Echo, digest, exchange, loss};
 use shoal_bus::hosts::{
-    Assignment, Crew, Decoding, Ending, Host, HostError, HostStopHandle, HostsError, HostsFleet, Network, Offer,
-    Relay, Terms,
+    Assignment, Crew, Decoding, Ending, Host, HostError, HostStopHandle, HostsError, HostsFleet, Network,
+    Offer, Relay, Terms,
 };
 use shoal_bus::local::Local;
 use shoal_bus::lockstep::{Fleet, FleetError, Loss};
@@ -105,7 +106,7 @@ fn two_and_three_hosts_answer_as_one_program() {
         let hosts: Vec<_> = slots.iter().map(|&slots| host(offer(&endpoint, "alpha", slots))).collect();
         fleet.gather().unwrap();
         assert_eq!(digest(&mut fleet, 20, 40), expected);
-        assert_eq!(fleet.processes() as usize, slots.len());
+        assert_eq!(fleet.processes().load(Ordering::Relaxed) as usize, slots.len());
         fleet.end();
         let mut carried = Vec::new();
         for (thread, _) in hosts {
@@ -159,7 +160,11 @@ fn who_leaves_is_lost_and_replaced_by_who_joins() {
         assert_eq!(thread.join().unwrap().0.unwrap(), Ending::Over);
     }
     let news: Vec<String> = news.try_iter().collect();
-    for said in ["host alpha said goodbye: interrupted: AUVs", "gamma joined with 7 slots, as a spare", "gamma carries"] {
+    for said in [
+        "host alpha said goodbye: interrupted: AUVs",
+        "gamma joined with 7 slots, as a spare",
+        "gamma carries",
+    ] {
         assert!(news.iter().any(|news| news.contains(said)), "{said}: {news:?}");
     }
 }
@@ -172,7 +177,10 @@ fn who_does_not_fit_is_refused_on_both_sides() {
     let refused = [
         (offer(&endpoint, "naked", 4), "shows no token"),
         (Offer { token: token("barley"), ..offer(&endpoint, "forger", 4) }, "another one"),
-        (Offer { scenario: Some("blake3:bb".into()), ..offer(&endpoint, "other", 4) }, "insists on a scenario"),
+        (
+            Offer { scenario: Some("blake3:bb".into()), ..offer(&endpoint, "other", 4) },
+            "insists on a scenario",
+        ),
         (offer(&endpoint, "full", 0), "--slots"),
     ];
     let joining = std::thread::spawn(move || {
@@ -185,7 +193,9 @@ fn who_does_not_fit_is_refused_on_both_sides() {
     });
     let error = fleet.gather().unwrap_err();
     assert!(matches!(&error, HostsError::Slots { missing: 1, .. }), "{error}");
-    assert!(error.to_string().contains("1 of 4 AUVs have no place on the hosts that joined (small: 3 slots)"));
+    assert!(
+        error.to_string().contains("1 of 4 AUVs have no place on the hosts that joined (small: 3 slots)")
+    );
     assert_eq!(joining.join().unwrap(), Ending::Failed(error.to_string()));
     let news: Vec<String> = news.try_iter().collect();
     for name in ["naked", "forger", "other", "full"] {

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use shoal_bus::hosts::{
-    Assignment, Crew, DEFAULT_CONFIG, Decoding, Ending, Host, HostError, Joined, Network, NetworkError, Offer, Relay,
-    ranges,
+    Assignment, Crew, DEFAULT_CONFIG, Decoding, Ending, Host, HostError, HostStopHandle, Joined, Network,
+    Offer, Relay, ranges, scenario_hash,
 };
 use shoal_bus::lockstep::{FleetError, Loss, PROCESS_ENDED};
 use shoal_bus::run_dir::RunDir;
@@ -18,6 +18,7 @@ use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
 use crate::cli::{Bus, HostArgs};
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
+use crate::janitor::Janitor;
 use crate::processes::{HASTY_FAREWELL, Swarm};
 use crate::run::interrupts;
 use crate::seat::Seat;
@@ -35,14 +36,14 @@ pub fn host(args: &HostArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage("give `--connect tcp/ADDRESS:PORT` and `--slots N`"));
     };
     RunDir::sweep();
-    let network = Network::new(args.zenoh_config.as_deref()).map_err(Failure::usage)?;
+    let network = Network::new(args.network.zenoh_config.as_deref()).map_err(Failure::usage)?;
     let name = args.name.clone().unwrap_or_else(hostname);
     let offer = Offer {
         endpoint: endpoint.clone(),
         name: name.clone(),
         slots: slots.get(),
-        token: token(args.token.as_deref())?,
-        scenario: args.scenario.as_ref().map(|path| scenario_hash(path)).transpose()?,
+        token: token(args.network.token.as_deref())?,
+        scenario: args.scenario.as_deref().map(insisted).transpose()?,
         wait: Duration::from_secs_f64(args.wait),
     };
     eprintln!("{name}: asking {endpoint} for a run, with {slots} slots");
@@ -63,7 +64,9 @@ fn tell_joined(name: &str, joined: &Joined) {
     let Joined { scenario, hash, clock_ahead_s, clock_error_s, is_spare } = joined;
     let role = if *is_spare { ", as a spare: it waits to take the place of a host that is lost" } else { "" };
     eprintln!("{name}: joined a run of {scenario} ({hash}){role}");
-    eprintln!("{name}: its clock is {clock_ahead_s:+.6} s from the launcher's, give or take {clock_error_s:.6} s");
+    eprintln!(
+        "{name}: its clock is {clock_ahead_s:+.6} s from the launcher's, give or take {clock_error_s:.6} s"
+    );
 }
 
 /// Says how it ended; the exit code is that of a run that lost what this host carried, if it did.
@@ -72,10 +75,13 @@ fn finish(name: &str, crew: &Carried, ending: Result<Ending, HostError>) -> Resu
     let (exit, said) = match ending.map_err(Failure::failed)? {
         Ending::Over => (Exit::Good, "the run is over".to_owned()),
         Ending::Failed(reason) => (Exit::Failed, format!("the run has failed: {reason}")),
-        Ending::Dismissed(reason) => (Exit::Loss, format!("the launcher has given this host up: {reason}{carried}")),
-        Ending::LauncherGone(limit) => {
-            (Exit::Loss, format!("the launcher was silent for {} s and is gone{carried}", limit.as_secs_f64()))
+        Ending::Dismissed(reason) => {
+            (Exit::Loss, format!("the launcher has given this host up: {reason}{carried}"))
         }
+        Ending::LauncherGone(limit) => (
+            Exit::Loss,
+            format!("the launcher was silent for {} s and is gone{carried}", limit.as_secs_f64()),
+        ),
         Ending::Stopped => (Exit::Loss, format!("interrupted{carried}")),
     };
     eprintln!("{name}: ended after {}: {said}", crew.progress.told());
@@ -86,7 +92,7 @@ fn finish(name: &str, crew: &Carried, ending: Result<Ending, HostError>) -> Resu
 fn pass_on(
     interrupted: &Arc<AtomicBool>,
     over: &Arc<AtomicBool>,
-    handle: shoal_bus::hosts::HostStopHandle,
+    handle: HostStopHandle,
 ) -> std::io::Result<std::thread::JoinHandle<()>> {
     let (interrupted, over) = (Arc::clone(interrupted), Arc::clone(over));
     let watch = move || {
@@ -104,8 +110,10 @@ fn pass_on(
 struct Carried<'a> {
     name: &'a str,
     scenario: String,
-    run: Option<Residue>,
+    // In this order: the AUVs end before their folder goes, and the janitor has nothing left to do.
     swarm: Swarm,
+    run: Option<Residue>,
+    janitor: Option<Janitor>,
     progress: Progress,
     quiet: bool,
 }
@@ -139,8 +147,9 @@ impl Carried<'_> {
         Self {
             name: "",
             scenario: String::new(),
-            run: None,
             swarm: Swarm::default(),
+            run: None,
+            janitor: None,
             progress: Progress::default(),
             quiet: args.quiet,
         }
@@ -152,12 +161,7 @@ impl Carried<'_> {
 
     fn try_start(&mut self, assignment: &Assignment) -> Result<Box<dyn Relay>, Failure> {
         let seats = Seat::of(&assignment.auvs, assignment.auvs_per_process);
-        eprintln!(
-            "{}: carries AUVs {} in {} processes",
-            self.name,
-            ranges(&assignment.auvs),
-            seats.len()
-        );
+        eprintln!("{}: carries AUVs {} in {} processes", self.name, ranges(&assignment.auvs), seats.len());
         let description = serde_json::json!({
             "format": "shoal.run/1",
             "scenario": self.scenario,
@@ -166,10 +170,11 @@ impl Carried<'_> {
             "launcher": std::process::id(),
         });
         let run = RunDir::create(&description).while_doing("make a folder for the run")?;
+        self.janitor = Some(Janitor::start(&run)?);
         let run = &self.run.insert(Residue(run)).0;
         let groups = wake_groups(&Seat::in_wake_order(&seats, &assignment.auvs));
         let mut fleet = SharedMemoryFleet::create(run, &groups).map_err(Failure::failed)?;
-        self.swarm.start(run, Bus::Iceoryx2, None, seats)?;
+        self.swarm.start_in_memory(run, seats)?;
         fleet.attach_processes(&self.swarm.processes()).map_err(Failure::failed)?;
         let interrupt = fleet.interrupt_handle();
         Ok(Box::new(Decoding::new(fleet, move || interrupt.interrupt())))
@@ -188,7 +193,7 @@ impl Crew for Carried<'_> {
 
     fn explain(&mut self, loss: &mut Loss) {
         if let Some(ending) = self.swarm.ending_of(loss.auv).filter(|_| loss.reason == PROCESS_ENDED) {
-            loss.reason = ending;
+            loss.reason = ending.reason;
         }
         eprintln!("{}: AUV {} is lost: {}", self.name, loss.auv, loss.reason);
     }
@@ -220,7 +225,9 @@ pub fn token(file: Option<&Path>) -> Result<Option<String>, Failure> {
         Failure::usage(format!("--token {}: {cause}; put one line with the secret into it", path.display()))
     };
     let mut text = String::new();
-    fs::File::open(path).and_then(|mut file| file.read_to_string(&mut text)).map_err(|error| wrong(&error))?;
+    fs::File::open(path)
+        .and_then(|mut file| file.read_to_string(&mut text))
+        .map_err(|error| wrong(&error))?;
     match text.trim() {
         "" => Err(wrong(&"the file is empty")),
         token => Ok(Some(token.to_owned())),
@@ -230,19 +237,10 @@ pub fn token(file: Option<&Path>) -> Result<Option<String>, Failure> {
 /// What holds the token where no file is given.
 pub const TOKEN_ENV: &str = "SHOAL_TOKEN";
 
-/// What both ends call the text of a scenario.
-pub fn hash(text: &str) -> String {
-    shoal_bus::hosts::scenario_hash(text)
-}
-
-fn scenario_hash(name: &str) -> Result<String, Failure> {
-    let (_, text) = shoal_scenario::load(name).map_err(Failure::usage)?;
-    Ok(hash(&text))
-}
-
-/// A network or the sentence why not.
-pub fn network(file: Option<&Path>) -> Result<Network, Failure> {
-    Network::new(file).map_err(|error: NetworkError| Failure::usage(error))
+/// The hash of the scenario that the command line insists on.
+fn insisted(scenario: &str) -> Result<String, Failure> {
+    let (_, text) = shoal_scenario::load(scenario).map_err(Failure::usage)?;
+    Ok(scenario_hash(&text))
 }
 
 fn hostname() -> String {

@@ -10,6 +10,9 @@ mod drive;
 mod exit;
 mod failure;
 mod figure;
+mod host;
+mod hosts_fleet;
+mod janitor;
 mod launch;
 mod localize;
 mod memory;
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
 fn command(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Run(args) => run::run(args),
+        Command::Host(args) => host::host(args),
         Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
         Command::Sweep(args) => sweep::sweep(args),
@@ -59,6 +63,9 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
+        Command::Janitor { run } => {
+            RunDir::open(run).while_doing("open the run's folder").and_then(|run| janitor::run(&run))
+        }
         Command::Channel { run } => {
             RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))
         }

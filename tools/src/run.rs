@@ -75,7 +75,7 @@ fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
         "scenario": scenario.name,
         "seed": scenario.seed,
         "auvs": scenario.auv_count(),
-        "bus": order.bus.name(),
+        "bus": order.bus_name(),
         "launcher": std::process::id(),
     })
 }
@@ -113,6 +113,7 @@ fn in_processes(
             }
             FromChannel::Progress(sim_s) => bar.advance(sim_s),
             FromChannel::Note(note) => bar.note(&note),
+            FromChannel::News(news) => bar.log(&news),
             FromChannel::Failed { message } => return Err(Failure { exit: Exit::Failed, message }),
             FromChannel::Done(mut done) => {
                 done.summary.startup_s = startup_s;

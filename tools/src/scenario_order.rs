@@ -7,7 +7,7 @@ use shoal_scenario::{Overrides, Scenario, library, load, parse};
 
 use crate::cli::{Bus, Changes, RunArgs};
 use crate::failure::{Failure, While};
-use crate::launch::Order;
+use crate::launch::{HostsOrder, Order};
 use crate::set::Setting;
 
 impl Order {
@@ -33,9 +33,15 @@ impl Order {
             bus: args.bus,
             auvs_per_process: args.auvs_per_process.unwrap_or(NonZeroU32::MIN),
             endpoint: args.endpoint.clone(),
+            hosts: HostsOrder::read(args)?,
             pace: args.pace,
             record: args.record.clone(),
         })
+    }
+
+    /// What carries the messages, as summaries say it.
+    pub fn bus_name(&self) -> &'static str {
+        if self.hosts.is_some() { "hosts" } else { self.bus.name() }
     }
 
     /// The scenario, validated, with the command line's changes.
