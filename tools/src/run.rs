@@ -78,7 +78,7 @@ fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
         "scenario": scenario.name,
         "seed": scenario.seed,
         "auvs": scenario.auv_count(),
-        "bus": order.bus.name(),
+        "bus": order.bus_name(),
         "launcher": std::process::id(),
     })
 }
@@ -116,6 +116,7 @@ fn in_processes(
             }
             FromChannel::Progress(sim_s) => bar.advance(sim_s),
             FromChannel::Note(note) => bar.note(&note),
+            FromChannel::News(news) => bar.log(&news),
             FromChannel::Failed { message } => {
                 // What the user's programs said may be why.
                 show_words(&swarm.wait(Duration::ZERO), bar);

@@ -95,7 +95,6 @@ impl HostsFleet {
             state: State::Idle,
             awaits: Awaits::Nothing,
             auvs: Default::default(),
-            processes: 0,
         });
         let role = if self.has_begun { ", as a spare" } else { "" };
         self.tell(&format!("host {name} joined with {slots} slots{role}"));
