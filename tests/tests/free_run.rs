@@ -12,7 +12,8 @@ use shoal_channel::channel::Channel;
 use shoal_tests::{Command, library_scenario};
 
 /// Six AUVs for some seconds, in real time.
-const RUN: &str = "run six-circles --free-run --json --set group.control_period_s=0.1 --set group.reaction_s=0.2 --window-ms 25";
+const RUN: &str = "run six-circles --free-run --json --set group.control_period_s=0.1 --set group.reaction_s=0.2 \
+    --set group.modem.ping_period_s=1 --window-ms 25";
 
 /// The AUVs that missed deadlines, and how many each.
 fn late(summary: &Value) -> Vec<(u64, u64)> {

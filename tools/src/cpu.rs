@@ -22,12 +22,12 @@ impl CpuMeter {
     /// Begins to measure this process and `others`.
     pub fn start(others: &[u32]) -> Option<Self> {
         let of = |&pid: &u32| Some((pid, taken(&pid.to_string())?));
-        Some(Self { own: taken("self")?, others: others.iter().filter_map(of).collect() })
+        Some(Self { own: own()?, others: others.iter().filter_map(of).collect() })
     }
 
     /// What was taken since, by those who are still there.
     pub fn stop(&self) -> Option<CpuTaken> {
-        let own = taken("self")?.since(self.own);
+        let own = own()?.since(self.own);
         let of = |(pid, before): &(u32, Taken)| Some(taken(&pid.to_string())?.since(*before));
         let all = self.others.iter().filter_map(of).fold(own, Taken::and);
         Some(CpuTaken { own, all })
@@ -64,6 +64,12 @@ impl Taken {
             switches: self.switches.saturating_sub(before.switches),
         }
     }
+}
+
+/// What this process has taken until now: the kernel adds up a running thread's time when it gives way.
+fn own() -> Option<Taken> {
+    std::thread::yield_now();
+    taken("self")
 }
 
 /// Sums up the threads of a process; `None` when the kernel does not tell, or there is no such process.
