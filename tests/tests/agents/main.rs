@@ -153,7 +153,7 @@ fn what_cannot_be_started_is_refused_before_anything_runs() {
     };
     refused("no-such-program", "there is no program `no-such-program` in PATH");
     refused("./no-such-file", "paths are relative to the scenario file");
-    refused("./agent.py", "is not executable: make it so with `chmod +x`".replace(": ", "; ").as_str());
+    refused("./agent.py", "is not executable; make it so with `chmod +x`");
     refused("agent.py", "write `./agent.py` for the file beside the scenario");
     let local = Command::new("run --bus local").with(polyglot()).finish().exited(2);
     assert!(local.stderr.contains("the local bus has no processes"), "{}", local.stderr);
