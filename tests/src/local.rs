@@ -47,7 +47,7 @@ pub fn run_local_watched<M: Mind>(
         let to = (channel.now() + window_ns).min(channel.end());
         let sensed = channel.advance(to)?;
         let answers = fleet.exchange(&sensed, &mut || {})?;
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         channel.chronicle()?.iter().for_each(&mut watch);
     }
     Ok(channel.summary())

@@ -77,7 +77,7 @@ fn windows(
             Err(error) => return Err(Failure::failed(error)),
         };
         let loss = answers.losses.first().cloned();
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {
             return Ok(Ending::Aborted(loss));
         }

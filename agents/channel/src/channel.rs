@@ -22,7 +22,7 @@ use crate::digest::Digest;
 use crate::flock::Flock;
 use crate::grid::Grid;
 use crate::medium::Medium;
-use crate::parallel::{PIECE, share_out, shares_of};
+use crate::parallel::{PIECE, shares_of};
 use crate::sound::Told;
 use crate::tally::{Counts, Excuse, Tally, ToldPings};
 use crate::vehicle::{Planned, Vehicle};
@@ -68,8 +68,8 @@ pub enum ChannelError {
 /// assert_eq!(sensed.len(), 2);
 /// assert!((8..=10).contains(&sensed[0].items.len()));
 /// // Nobody answered: both bodies go on as they were.
-/// channel.accept(Answers::default());
-/// assert!(channel.chronicle()?.len() >= 2 * sensed[0].items.len());
+/// channel.accept(sensed, Answers::default());
+/// assert!(channel.chronicle()?.len() >= 2 * (8 + 8));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Channel {
@@ -79,6 +79,8 @@ pub struct Channel {
     grid: Grid,
     /// Where all vehicles were when the window began.
     places_m: Vec<Vec3>,
+    /// Memory of what was told, to be written anew.
+    batches: Vec<Batch<Sensed>>,
     fastest_m_s: f64,
     lookahead_ns: i64,
     /// One for each piece of the swarm.
@@ -105,12 +107,29 @@ struct Share {
     told: Vec<Told>,
     /// The earliest wavefront that anyone waits for.
     waits_for: Option<u64>,
+    /// Numbers of wavefronts that left for someone and will never be noticed there.
+    beyond: Vec<u64>,
+    /// Where each was when the window ended.
+    places_m: Vec<Vec3>,
+    /// Where each was at the moments to be noted down.
+    moments_m: Vec<Vec3>,
     batches: Vec<Batch<Sensed>>,
-    /// Memory of events that were chronicled, to be written anew: fresh one would cost more than what is written into it.
-    spare: Vec<Vec<Event>>,
+    /// True times of what is in the batches.
+    sensed_at: Vec<SimTime>,
+    spare: Spare,
+    sensed: Vec<Batch<Sensed>>,
     answers: Vec<Batch<Acted>>,
     sightings: Vec<Sighting>,
     losses: Vec<Loss>,
+}
+
+/// Memory to be written anew: fresh one would cost more than what is written into it.
+#[derive(Default)]
+struct Spare {
+    items: Vec<Vec<Sensed>>,
+    events: Vec<Vec<Event>>,
+    #[expect(clippy::vec_box, reason = "entries hold them in boxes, and it is the boxes that are spared")]
+    acted: Vec<Box<Acted>>,
 }
 
 impl Channel {
@@ -145,7 +164,8 @@ impl Channel {
             tally: Tally::new(vehicles.len()),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
-            places_m: vec![Vec3::zeros(); vehicles.len()],
+            places_m: vehicles.iter().map(|vehicle| vehicle.body.position_at(SimTime::ZERO)).collect(),
+            batches: Vec::new(),
             lookahead_ns: vehicles.iter().map(Vehicle::lookahead_ns).min().unwrap_or(i64::MAX),
             shares: (0..shares_of(vehicles.len())).map(|_| Share::default()).collect(),
             fastest_m_s: vehicles.iter().map(|vehicle| vehicle.ground_speed_m_s).fold(0.0, f64::max),
@@ -199,17 +219,16 @@ impl Channel {
         if window_ns > lookahead_ns {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
-        self.move_bodies(to);
-        self.depart();
+        self.depart(to);
         let batches = self.live(to);
-        self.remember_places(to);
         self.now = to;
         Ok(batches)
     }
 
-    /// Takes the answers to the window just advanced and checks them. What happened in it waits for
-    /// [`chronicle`](Channel::chronicle).
-    pub fn accept(&mut self, answers: Answers) {
+    /// Takes back what [`advance`](Channel::advance) gave, for the chronicle, and takes the answers and checks them. What happened in
+    /// the window waits for [`chronicle`](Channel::chronicle).
+    pub fn accept(&mut self, sensed: Vec<Batch<Sensed>>, answers: Answers) {
+        self.take_back(sensed);
         self.take_answers(answers.acted);
         for loss in answers.losses {
             self.lose(loss);
@@ -223,11 +242,15 @@ impl Channel {
     /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
     /// apart from [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
-        for entry in self.chronicled.drain(..) {
-            if let What::Sensed(sensed) = entry.what
-                && let Some(share) = self.shares.get_mut(entry.auv.0 as usize / PIECE)
-            {
-                share.spare.push(sensed.events);
+        for Entry { auv, what, .. } in self.chronicled.drain(..) {
+            let Some(share) = self.shares.get_mut(auv.0 as usize / PIECE) else { continue };
+            match what {
+                What::Sensed(Sensed { mut events, .. }) => {
+                    events.clear();
+                    share.spare.events.push(events);
+                }
+                What::Acted(acted) => share.spare.acted.push(acted),
+                _ => {}
             }
         }
         std::mem::swap(&mut self.chronicled, &mut self.happened);
@@ -260,30 +283,6 @@ impl Channel {
         let told: Vec<_> = self.vehicles.iter().map(told).collect();
         let in_flight = self.medium.in_flight();
         self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told)
-    }
-
-    /// Moves all bodies to `to`, and lets go what leaves before.
-    fn move_bodies(&mut self, to: SimTime) {
-        let now = self.now;
-        share_out(&mut self.vehicles, &mut self.places_m, &mut self.shares, |vehicles, places_m, share| {
-            share.leapt_m = 0.0;
-            for (vehicle, place_m) in vehicles.iter_mut().zip(places_m) {
-                vehicle.forget_before(now);
-                vehicle.body.integrate(to);
-                *place_m = vehicle.body.position_at(now);
-                share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));
-                while let Some(planned) = vehicle.next_emission(to) {
-                    share.leaving.push((vehicle.born.auv, planned));
-                }
-            }
-        });
-    }
-
-    /// Bodies forget where they were, so whoever looks at it later has to note it down.
-    fn remember_places(&mut self, to: SimTime) {
-        for at in Flock::samples(self.now, to) {
-            self.moments_m.push(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect());
-        }
     }
 
     fn watch_separation(&mut self) {
