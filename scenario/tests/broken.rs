@@ -44,6 +44,7 @@ broken! {
     window_too_long: "window-too-long",
     slow_sound: "slow-sound",
     start_outside: "start-outside",
+    grid_impossible: "grid-impossible",
     trusts_unknown: "trusts-unknown",
     circle_too_fast: "circle-too-fast",
     too_many: "too-many",
@@ -75,4 +76,5 @@ broken! {
     modem_unknown: "modem-unknown",
     access_impossible: "access-impossible",
     bearing_impossible: "bearing-impossible",
+    command_impossible: "command-impossible",
 }

@@ -35,6 +35,7 @@ access = { name = "csma", listen_s = 1, backoff_s = 1, zz = 0 }
 duty_cycle = { period_s = 1, awake_s = 1, zz = 0 }
 zz = 0
 [group.start]
+grid = { first_m = [1, 1, -1], spacing_m = [1, 1, 0], columns = 1, zz = 0 }
 zz = 0
 [[group]]
 name = "circle"
@@ -45,6 +46,11 @@ controller = { name = "circle", centre_m = [4, 4, -4], radius_m = 1, rate_rad_s 
 name = "waypoints"
 count = 1
 controller = { name = "waypoints", points_m = [[1, 1, -1]], zz = 0 }
+[[group]]
+name = "station"
+count = 1
+controller = { name = "station", zz = 0 }
+start.points_m = [[1, 1, -1]]
 [[group]]
 name = "reynolds"
 count = 1
@@ -98,7 +104,7 @@ modem = "micromodem-psk"
 
 #[test]
 fn every_key_is_documented() {
-    every_unknown_key_lists_documented_ones(UNKNOWN_EVERYWHERE, 20);
+    every_unknown_key_lists_documented_ones(UNKNOWN_EVERYWHERE, 22);
     every_unknown_key_lists_documented_ones(UNKNOWN_IN_THE_SEA, 7);
     every_unknown_key_lists_documented_ones(UNKNOWN_IN_OTHER_FORMS, 4);
 }

@@ -38,7 +38,8 @@ pub enum Command {
     #[command(
         after_help = "KEY names a value of the scenario file with dots, such as `environment.sound_speed_m_s`, or \
         `group.0.count` for the first group and `group.count` for all.\n\nExamples:\n  shoal sweep six-circles --seeds 1..5\n  \
-        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv"
+        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv\n\n\
+        With --csv or --runs a sweep that was stopped, however it was, goes on when the same command is given again."
     )]
     Sweep(SweepArgs),
     /// Watch the pings of a live run on this host
@@ -81,6 +82,9 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// A program of the user's that is one AUV; started by `run`
+    #[command(hide = true)]
+    Agent(AgentArgs),
     /// One AUV, or several; started by `run`
     #[command(hide = true)]
     Auv(AuvArgs),
@@ -142,7 +146,7 @@ pub struct RunArgs {
 }
 
 /// Changes to a scenario that have a flag of their own.
-#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 pub struct Changes {
     /// Number of AUVs: scales all groups in proportion
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -183,6 +187,13 @@ pub struct SweepArgs {
     /// Write the table to this file too, as comma-separated values
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// Keep every run that ended in this file, so that the same command goes on where it was stopped; beside the table of `--csv`
+    /// unless given
+    #[arg(long, value_name = "FILE")]
+    pub runs: Option<PathBuf>,
+    /// Runs at a time; one for each core unless given
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
@@ -223,6 +234,16 @@ pub struct TapArgs {
     /// Wait so many seconds for a run to begin
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
     pub wait: f64,
+}
+
+#[derive(Debug, Args)]
+pub struct AgentArgs {
+    /// Process that started it, with which it ends
+    #[arg(long)]
+    pub launcher: u32,
+    /// Program and arguments
+    #[arg(last = true, required = true)]
+    pub command: Vec<String>,
 }
 
 #[derive(Debug, Args)]

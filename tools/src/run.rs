@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use shoal_auv::Auv;
 use shoal_bus::local::Local;
@@ -13,6 +13,7 @@ use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
 use shoal_scenario::{OnCrash, Scenario};
 
+use crate::agent_process::{check_commands, needs_no_processes};
 use crate::cli::{Bus, RunArgs};
 use crate::drive::{Ending, Observer, Plan, drive};
 use crate::exit::Exit;
@@ -25,12 +26,19 @@ use crate::progress::Bar;
 use crate::seat::Seat;
 use crate::summary_text;
 
+/// The words of so many of the user's programs are shown.
+const LOGS_SHOWN: usize = 8;
+
 /// Runs a scenario and prints what it amounts to.
 pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let order = Order::read(args)?;
     let scenario = order.scenario()?;
     for warning in scenario.warnings() {
         eprintln!("warning: {warning}");
+    }
+    check_commands(&scenario, &order)?;
+    if order.bus == Bus::Local {
+        needs_no_processes(&scenario, "use `--bus iceoryx2` or `--bus zenoh`")?;
     }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;
@@ -102,7 +110,11 @@ fn in_processes(
             }
             FromChannel::Progress(sim_s) => bar.advance(sim_s),
             FromChannel::Note(note) => bar.note(&note),
-            FromChannel::Failed { message } => return Err(Failure { exit: Exit::Failed, message }),
+            FromChannel::Failed { message } => {
+                // What the user's programs said may be why.
+                show_words(&swarm.wait(Duration::ZERO), bar);
+                return Err(Failure { exit: Exit::Failed, message });
+            }
             FromChannel::Done(mut done) => {
                 done.summary.startup_s = startup_s;
                 channel.wait();
@@ -116,6 +128,7 @@ fn in_processes(
                         };
                     }
                 }
+                show_words(&endings, bar);
                 for ending in endings.iter().filter(|ending| ending.was_killed) {
                     let lost = &done.summary.agents.lost;
                     if !lost.iter().any(|lost| ending.seat.auvs.contains(&lost.auv)) {
@@ -131,6 +144,13 @@ fn in_processes(
     }
 }
 
+/// Shows what the user's programs wrote.
+fn show_words(endings: &[ProcessEnding], bar: &Bar) {
+    for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
+        bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
+    }
+}
+
 /// No processes: the reference.
 fn in_this_program(
     order: &Order,
@@ -142,7 +162,10 @@ fn in_this_program(
     let began = Instant::now();
     let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let mut fleet = Local::on_all_cores(Auv::new);

@@ -1,15 +1,14 @@
 //! Who is around, by the last ping heard from each.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector3;
 use shoal_bus::message::{AuvId, BoundsBox, Fleetmates, Sense, Sensed, box_width};
-use shoal_bus::ping::Payload;
+use shoal_bus::ping::{Frame, GaussianPing, Ping};
 use shoal_bus::time::LocalTime;
 
 /// One neighbour as its last ping showed it: middles of intervals or means, for steering, never for enclosures.
 #[derive(Clone, Copy, Debug)]
 struct Neighbour {
+    auv: AuvId,
     heard: LocalTime,
     emission_s: f64,
     position_m: Vector3<f64>,
@@ -18,24 +17,27 @@ struct Neighbour {
 }
 
 impl Neighbour {
-    fn new(payload: &Payload, heard: LocalTime) -> Self {
-        let middle = |sides: BoundsBox| Vector3::from(sides.map(|side| side.mid()));
-        match payload {
-            Payload::Intervals(ping) => Self {
-                heard,
-                emission_s: ping.emission_s.mid(),
-                position_m: middle(ping.position_m),
-                velocity_m_s: middle(ping.velocity_m_s),
-                box_width_m: box_width(&ping.position_m),
-            },
-            Payload::Gaussian(ping) => Self {
+    /// The one that a frame shows, if it shows any: most say intervals, and only their middles count.
+    fn heard(frame: &Frame, heard: LocalTime) -> Option<Self> {
+        let Ok(ping) = Ping::decode(frame) else {
+            return GaussianPing::decode(frame).ok().map(|ping| Self {
+                auv: ping.sender,
                 heard,
                 emission_s: ping.emission_s,
                 position_m: ping.position_m.into(),
                 velocity_m_s: ping.velocity_m_s.into(),
                 box_width_m: box_width(&ping.position_box_m()),
-            },
-        }
+            });
+        };
+        let middle = |sides: BoundsBox| Vector3::from(sides.map(|side| side.mid()));
+        Some(Self {
+            auv: ping.sender,
+            heard,
+            emission_s: ping.emission_s.mid(),
+            position_m: middle(ping.position_m),
+            velocity_m_s: middle(ping.velocity_m_s),
+            box_width_m: box_width(&ping.position_m),
+        })
     }
 }
 
@@ -55,7 +57,8 @@ pub struct Predicted {
 /// The neighbours heard lately.
 #[derive(Debug, Default)]
 pub struct Neighbours {
-    last: BTreeMap<AuvId, Neighbour>,
+    /// In the order of their ids.
+    last: Vec<Neighbour>,
 }
 
 impl Neighbours {
@@ -64,14 +67,14 @@ impl Neighbours {
     pub fn listen(&mut self, sensed: &Sensed, forget_ns: i64) {
         for event in &sensed.events {
             let Sense::Heard { frame } = &event.sense else { continue };
-            let Ok(payload) = Payload::decode(frame) else { continue };
-            let neighbour = Neighbour::new(&payload, event.stamp);
-            let last = self.last.entry(payload.sender()).or_insert(neighbour);
-            if last.heard <= neighbour.heard {
-                *last = neighbour;
+            let Some(neighbour) = Neighbour::heard(frame, event.stamp) else { continue };
+            match self.last.binary_search_by_key(&neighbour.auv, |last| last.auv) {
+                Ok(known) if self.last[known].heard <= neighbour.heard => self.last[known] = neighbour,
+                Ok(_) => {}
+                Err(place) => self.last.insert(place, neighbour),
             }
         }
-        self.last.retain(|_, neighbour| sensed.stamp - neighbour.heard <= forget_ns);
+        self.last.retain(|neighbour| sensed.stamp - neighbour.heard <= forget_ns);
     }
 
     /// How many there are.
@@ -81,8 +84,8 @@ impl Neighbours {
 
     /// All neighbours as they should be at true time `time_s`, in the order of their ids.
     pub fn at(&self, time_s: f64) -> impl Iterator<Item = Predicted> {
-        self.last.iter().map(move |(&auv, neighbour)| Predicted {
-            auv,
+        self.last.iter().map(move |neighbour| Predicted {
+            auv: neighbour.auv,
             position_m: neighbour.position_m + neighbour.velocity_m_s * (time_s - neighbour.emission_s),
             velocity_m_s: neighbour.velocity_m_s,
             box_width_m: neighbour.box_width_m,
@@ -98,7 +101,6 @@ pub fn trusted(fleets: &[Fleetmates], auv: AuvId) -> bool {
 #[cfg(test)]
 mod tests {
     use shoal_bus::message::{Bounds, Event};
-    use shoal_bus::ping::{GaussianPing, Ping};
 
     use super::*;
 

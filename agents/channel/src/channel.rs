@@ -19,7 +19,7 @@ use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
 use crate::digest::Digest;
-use crate::flock::Flock;
+use crate::flock::{Flock, Flying};
 use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::parallel::{PIECE, shares_of};
@@ -90,9 +90,10 @@ pub struct Channel {
     happened: Vec<Entry>,
     chronicled: Vec<Entry>,
     order: CanonicalOrder,
-    /// Where all vehicles were at moments that are not looked at yet.
-    moments_m: Vec<Vec<Vec3>>,
     flock: Flock,
+    is_flock_watched: bool,
+    /// Moments of the window just advanced, and of those accepted, that are not looked at yet.
+    moments: [Vec<Moment>; 2],
     tally: Tally,
     digest: Digest,
 }
@@ -132,6 +133,13 @@ struct Spare {
     acted: Vec<Box<Acted>>,
 }
 
+/// Where all vehicles were at one moment, and how those that live moved, where that is told.
+struct Moment {
+    at: SimTime,
+    positions_m: Vec<Vec3>,
+    flying: Option<Flying>,
+}
+
 impl Channel {
     /// The water of `scenario` at true time zero.
     ///
@@ -161,7 +169,7 @@ impl Channel {
         }
         Ok(Self {
             scenario: scenario.clone(),
-            tally: Tally::new(vehicles.len()),
+            tally: Tally::new(scenario),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
             places_m: vehicles.iter().map(|vehicle| vehicle.body.position_at(SimTime::ZERO)).collect(),
@@ -175,8 +183,9 @@ impl Channel {
             happened: Vec::new(),
             chronicled: Vec::new(),
             order: CanonicalOrder::default(),
-            moments_m: Vec::new(),
             flock: Flock::default(),
+            is_flock_watched: false,
+            moments: Default::default(),
             digest: Digest::default(),
         })
     }
@@ -184,6 +193,12 @@ impl Channel {
     /// What each AUV is told at birth, sorted by AUV.
     pub fn born(&self) -> Vec<Born> {
         self.vehicles.iter().map(|vehicle| vehicle.born.clone()).collect()
+    }
+
+    /// From now on the chronicle tells once a simulated second how the swarm moves and holds together. Nothing else changes, not the
+    /// digest either.
+    pub fn watch_flock(&mut self) {
+        self.is_flock_watched = true;
     }
 
     /// All AUVs in the order of their first ticks, so that neighbours in the order tend to be due together.
@@ -237,6 +252,8 @@ impl Channel {
         // Buffers go round: fresh ones would cost more than what is written into them.
         self.happened.clear();
         std::mem::swap(&mut self.happened, &mut self.tally.counts.entries);
+        let [advanced, accepted] = &mut self.moments;
+        accepted.append(advanced);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
@@ -254,9 +271,9 @@ impl Channel {
             }
         }
         std::mem::swap(&mut self.chronicled, &mut self.happened);
+        self.look_at_moments();
         self.order.sort(&mut self.chronicled);
         self.digest.update(&self.chronicled)?;
-        self.watch_separation();
         Ok(&self.chronicled)
     }
 
@@ -274,24 +291,25 @@ impl Channel {
 
     /// What the run amounts to, as far as it is chronicled.
     pub fn summary(&self) -> Summary {
-        let poses: Vec<_> = self.vehicles.iter().map(|vehicle| vehicle.body.at(self.now)).collect();
-        let positions_m: Vec<Vec3> = poses.iter().map(|pose| pose.position_m).collect();
-        let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
-        let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
-        let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
+        let flock = self.flock.figures(&flying(&self.vehicles, self.now));
         let told = |vehicle: &Vehicle| ToldPings { heard: vehicle.pings_heard, windows: vehicle.windows() };
         let told: Vec<_> = self.vehicles.iter().map(told).collect();
         let in_flight = self.medium.in_flight();
         self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told)
     }
 
-    fn watch_separation(&mut self) {
-        if self.moments_m.is_empty() {
+    fn look_at_moments(&mut self) {
+        let moments = &mut self.moments[1];
+        if moments.is_empty() {
             return;
         }
         let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
-        for positions_m in self.moments_m.drain(..) {
+        for Moment { at, positions_m, flying } in moments.drain(..) {
             self.flock.sample(&positions_m, &length_m);
+            if let Some(flying) = flying {
+                let what = What::Flock(self.flock.figures_lately(&flying));
+                self.chronicled.push(Entry { at, auv: AuvId(0), what });
+            }
         }
     }
 
@@ -302,6 +320,17 @@ impl Channel {
         vehicle.end(self.now);
         self.tally.lost(self.now, loss.auv, &vehicle.born.name, &loss.reason);
     }
+}
+
+/// The AUVs that live.
+fn flying(vehicles: &[Vehicle], at: SimTime) -> Flying {
+    let alive = vehicles.iter().filter(|vehicle| vehicle.alive);
+    alive
+        .map(|vehicle| {
+            let pose = vehicle.body.at(at);
+            (pose.position_m, pose.ground_velocity_m_s, vehicle.born.modem.range_m)
+        })
+        .collect()
 }
 
 /// Why no promise covers what an AUV states at `at` by what it knew at its tick at `known`, if none does.

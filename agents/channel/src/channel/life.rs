@@ -6,7 +6,7 @@ use shoal_bus::message::Sensed;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
 
-use super::{Channel, Share};
+use super::{Channel, Moment, Share, flying};
 use crate::flock::Flock;
 use crate::medium::{Level, Receiver};
 use crate::parallel::share_out;
@@ -33,12 +33,14 @@ impl Channel {
                 share.places_m.push(vehicle.body.position_at(to));
             }
         });
-        for moment in 0..moments.len() {
-            let mut places_m = Vec::with_capacity(self.vehicles.len());
+        for (index, &at) in moments.iter().enumerate() {
+            let mut positions_m = Vec::with_capacity(self.vehicles.len());
             for share in &self.shares {
-                places_m.extend(share.moments_m.iter().skip(moment).step_by(moments.len()));
+                positions_m.extend(share.moments_m.iter().skip(index).step_by(moments.len()));
             }
-            self.moments_m.push(places_m);
+            let is_told = self.is_flock_watched && Flock::is_second(at);
+            let flying = is_told.then(|| flying(&self.vehicles, at));
+            self.moments[0].push(Moment { at, positions_m, flying });
         }
         self.tell_departures();
         let mut batches = std::mem::take(&mut self.batches);
