@@ -28,7 +28,7 @@ fn run(scenario: &Scenario, lives: &[(u32, f64, f64)]) -> (Summary, Vec<u64>) {
             answers.acted.retain(|batch| batch.auv != AuvId(auv));
             answers.losses.push(Loss { auv: AuvId(auv), reason: "test".into() });
         }
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         let again: Vec<AuvId> =
             lives.iter().filter(|life| is_now(life.2)).map(|life| AuvId(life.0)).collect();
         for entry in channel.chronicle().unwrap() {
