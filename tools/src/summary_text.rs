@@ -122,6 +122,9 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             lost.reason
         )?;
     }
+    for again in &summary.agents.restarted {
+        writeln!(text, "  born again    {} (AUV {}) at {} s", again.name, again.auv, number(again.time_s))?;
+    }
     if let Some(memory) = &summary.memory {
         write!(text, "  memory        channel {:.1} MiB", memory.channel_rss_kib as f64 / 1024.0)?;
         if memory.auv_pss_kib_median > 0 {
