@@ -8,6 +8,7 @@
 mod arena;
 mod control;
 mod fleet;
+mod late;
 mod link;
 mod members;
 

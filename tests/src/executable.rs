@@ -218,6 +218,10 @@ impl Live {
     /// The processes of the AUVs that are there, by the AUVs' ids: several share one with `--auvs-per-process`.
     pub fn auvs(&mut self) -> BTreeMap<u32, Process> {
         let carried = |child: &Process| {
+            // A program of the user's is told one.
+            if let Some(auv) = child.argument("--auv").and_then(|auv| auv.parse::<u32>().ok()) {
+                return Some(auv..auv + 1);
+            }
             let auvs = child.argument("--auvs")?;
             let (first, end) = auvs.split_once("..")?;
             Some(first.parse::<u32>().ok()?..end.parse().ok()?)

@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use shoal_bus::composite::{Composite, Part};
 use shoal_bus::hosts::HostsFleet;
@@ -15,10 +15,11 @@ use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
 use shoal_bus::summary::{Memory, Summary};
 use shoal_bus::zenoh::ZenohFleet;
 use shoal_channel::channel::Channel;
-use shoal_scenario::{OnCrash, Scenario};
+use shoal_scenario::Scenario;
 
 use crate::cli::Bus;
-use crate::drive::{Ending, Observer, Plan, drive};
+use crate::conduct::{Conducted, conduct};
+use crate::drive::{Ending, Observer};
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
 use crate::launch::{Done, FromChannel, Order, ToChannel};
@@ -66,7 +67,10 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
     let scenario = order.scenario()?;
     let mut channel = Channel::new(&scenario).map_err(Failure::failed)?;
     let recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, &scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, &scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let seats = Seat::of_run(&order, &scenario);
@@ -96,7 +100,9 @@ fn fleet(
     let mut shared_memory = match in_memory.as_slice() {
         [] => None,
         seats => {
-            let groups = wake_groups(&Seat::in_wake_order(seats, &channel.wake_order()));
+            let processes = Seat::in_wake_order(seats, &channel.wake_order());
+            // Who shares a wake-up group is late together.
+            let groups = if order.free_run { processes } else { wake_groups(&processes) };
             Some(SharedMemoryFleet::create(run, &groups).map_err(Failure::failed)?)
         }
     };
@@ -168,33 +174,27 @@ fn carry_out(
     let (mut tapped, trouble) = Tapped::create(run);
     trouble.map(FromChannel::Note).iter().for_each(say);
 
-    let ending = match fleet.born(&channel.born()) {
+    let is_born = match fleet.born(&channel.born()) {
         Ok(losses) => {
             channel.stillborn(losses);
             say(&FromChannel::Started);
-            None
+            true
         }
-        Err(FleetError::Interrupted) => Some(Ending::Interrupted),
+        Err(FleetError::Interrupted) => false,
         Err(error) => return Err(Failure::failed(error)),
     };
-    let began = Instant::now();
-    let ending = match ending {
-        Some(ending) => ending,
-        None => {
-            let plan = Plan {
-                window_ns: scenario.window_ns,
-                pace: order.pace,
-                abort_on_crash: scenario.on_crash == OnCrash::Abort,
-            };
-            let mut progress = Progress::new(|sim_s| say(&FromChannel::Progress(sim_s)));
-            let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
-            observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
-            drive(channel, fleet, &plan, &mut observers, &|| launched.interrupted())?
-        }
+    let processes: Vec<u32> = launched.seats.iter().map(|(_, pid)| *pid).collect();
+    let conducted = if is_born {
+        let mut progress = Progress::new(|sim_s| say(&FromChannel::Progress(sim_s)));
+        let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
+        observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
+        let interrupted = || launched.interrupted();
+        conduct(order, scenario, channel, fleet, &mut observers, &interrupted, &processes)?
+    } else {
+        Conducted::nothing()
     };
-    let wall_s = began.elapsed().as_secs_f64();
 
-    let simulated = channel.summary();
+    let simulated = conducted.complete(channel.summary());
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.clone().map(FromChannel::Note).iter().for_each(say);
     tapped.end();
@@ -208,21 +208,19 @@ fn carry_out(
     let summary = Summary {
         bus: Some(order.bus_name().to_owned()),
         processes: Some(launched.seats.len() as u32 + launched.elsewhere.load(Ordering::Relaxed) + 1),
-        wall_s: Some(wall_s),
-        real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
         memory: Some(Memory {
             auv_pss_kib_median: memory::median_pss_kib(&alive),
             channel_rss_kib: memory::own_rss_kib(),
         }),
-        ..simulated
+        ..conducted.with_wall_facts(simulated)
     };
-    let aborted = match &ending {
+    let aborted = match &conducted.ending {
         Ending::Aborted(loss) => {
             Some(format!("AUV {} ended ({}) and on_crash = \"abort\"", loss.auv, loss.reason))
         }
         _ => None,
     };
-    let interrupted = ending == Ending::Interrupted;
+    let interrupted = conducted.ending == Ending::Interrupted;
     let record_incomplete = incomplete_record.is_some();
     Ok(FromChannel::Done(Box::new(Done { summary, interrupted, record_incomplete, aborted })))
 }

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
 use crate::plot::Kind;
 use crate::set::Setting;
@@ -45,7 +46,8 @@ pub enum Command {
     #[command(
         after_help = "KEY names a value of the scenario file with dots, such as `environment.sound_speed_m_s`, or \
         `group.0.count` for the first group and `group.count` for all.\n\nExamples:\n  shoal sweep six-circles --seeds 1..5\n  \
-        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv"
+        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv\n\n\
+        With --csv or --runs a sweep that was stopped, however it was, goes on when the same command is given again."
     )]
     Sweep(SweepArgs),
     /// Watch the pings of a live run on this host
@@ -88,6 +90,11 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// Measure this machine
+    Bench {
+        #[command(subcommand)]
+        command: BenchCommand,
+    },
     /// A program of the user's that is one AUV; started by `run`
     #[command(hide = true)]
     Agent(AgentArgs),
@@ -108,6 +115,16 @@ pub enum Command {
         #[arg(long)]
         run: PathBuf,
     },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum BenchCommand {
+    /// What an AUV costs among more and more others at the same density: processor time, start-up, memory
+    #[command(
+        after_help = "Examples:\n  shoal bench scale\n  shoal bench scale --bus local --auvs 100,1000,10000 --json\n  \
+        shoal bench scale --control-period-s 1"
+    )]
+    Scale(ScaleArgs),
 }
 
 #[derive(Debug, Subcommand)]
@@ -141,9 +158,16 @@ pub struct RunArgs {
     pub set: Vec<Setting>,
     #[command(flatten)]
     pub changes: Changes,
-    /// `max`, or simulated seconds per second of wall clock: 1 is real time
-    #[arg(long, default_value = "max", value_parser = parse_pace, allow_negative_numbers = true)]
-    pub pace: Pace,
+    /// `max`, or simulated seconds per second of wall clock: 1 is real time. `max` unless given, 1 with --free-run
+    #[arg(long, value_parser = parse_pace, allow_negative_numbers = true)]
+    pub pace: Option<Pace>,
+    /// Wait for nobody: an AUV that does not answer within its reaction time holds its last command. For hardware in the loop;
+    /// such a run cannot be reproduced
+    #[arg(long)]
+    pub free_run: bool,
+    /// Tell where the time went, as a graph, or with --json in the summary
+    #[arg(long)]
+    pub timings: bool,
     /// Write a record (MCAP) of the run
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
@@ -208,7 +232,7 @@ pub struct HostArgs {
 }
 
 /// Changes to a scenario that have a flag of their own.
-#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 pub struct Changes {
     /// Number of AUVs: scales all groups in proportion
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -249,6 +273,13 @@ pub struct SweepArgs {
     /// Write the table to this file too, as comma-separated values
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// Keep every run that ended in this file, so that the same command goes on where it was stopped; beside the table of `--csv`
+    /// unless given
+    #[arg(long, value_name = "FILE")]
+    pub runs: Option<PathBuf>,
+    /// Runs at a time; one for each core unless given
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,

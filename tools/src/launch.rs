@@ -43,6 +43,10 @@ pub struct Order {
     pub hosts: Option<HostsOrder>,
     /// Pace.
     pub pace: Pace,
+    /// Whether nobody waits for AUVs that are late.
+    pub free_run: bool,
+    /// Whether to note where the time goes.
+    pub timings: bool,
     /// Where to record.
     pub record: Option<PathBuf>,
 }

@@ -4,12 +4,16 @@
 
 mod agent_process;
 mod auv_process;
+mod bench;
 mod channel_process;
 mod cli;
+mod conduct;
+mod cpu;
 mod drive;
 mod exit;
 mod failure;
 mod figure;
+mod free_run;
 mod host;
 mod hosts_fleet;
 mod janitor;
@@ -27,15 +31,17 @@ mod scenario_order;
 mod scenarios;
 mod seat;
 mod set;
+mod stopwatch;
 mod summary_text;
 mod sweep;
 mod tap;
 mod terminal;
+mod timings_text;
 
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{Cli, Command, RecordCommand};
+use cli::{BenchCommand, Cli, Command, RecordCommand};
 use exit::Exit;
 use failure::{Failure, While};
 use shoal_bus::run_dir::RunDir;
@@ -61,6 +67,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
         Command::Janitor { run } => {

@@ -22,7 +22,12 @@ impl Seat {
     ///
     /// Where other hosts carry them, only programs of the user's have seats here.
     pub fn of_run(order: &Order, scenario: &Scenario) -> Vec<Self> {
-        let each = order.auvs_per_process.get();
+        let mut seats = Self::seated(scenario, order.auvs_per_process.get());
+        seats.retain(|seat| order.hosts.is_none() || seat.command.is_some());
+        seats
+    }
+
+    fn seated(scenario: &Scenario, each: u32) -> Vec<Self> {
         let mut seats: Vec<Self> = Vec::new();
         let mut first = 0;
         for group in &scenario.groups {
@@ -40,7 +45,6 @@ impl Seat {
             }
             first = end;
         }
-        seats.retain(|seat| order.hosts.is_none() || seat.command.is_some());
         seats
     }
 
@@ -85,6 +89,21 @@ pub fn name(auvs: &Range<u32>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn programs_of_the_user_sit_alone() {
+        let text = "name = \"mixed\"\nduration_s = 1\nenvironment.area_m = [[0, 99], [0, 99], [-9, 0]]\n\
+            [[group]]\nname = \"a\"\ncount = 1\n[[group]]\nname = \"b\"\ncount = 4\n\
+            [[group]]\nname = \"c\"\ncount = 2\ncommand = [\"c\"]\n[[group]]\nname = \"d\"\ncount = 3\n";
+        let scenario = shoal_scenario::parse("mixed.toml", text).unwrap();
+        let seats = |each: u32| {
+            let seats = Seat::seated(&scenario, each);
+            seats.into_iter().map(|seat| (seat.auvs, seat.command.is_some())).collect::<Vec<_>>()
+        };
+        let expected = [(0..3, false), (3..5, false), (5..6, true), (6..7, true), (7..10, false)];
+        assert_eq!(seats(3), expected);
+        assert_eq!(seats(1).len(), 10);
+    }
 
     #[test]
     fn any_auvs_have_seats() {

@@ -18,8 +18,9 @@ use thiserror::Error;
 use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
+use crate::deadlines::{Deadlines, remembered_from};
 use crate::digest::Digest;
-use crate::flock::Flock;
+use crate::flock::{Flock, Flying};
 use crate::grid::Grid;
 use crate::medium::Medium;
 use crate::parallel::{PIECE, share_out, shares_of};
@@ -88,11 +89,16 @@ pub struct Channel {
     happened: Vec<Entry>,
     chronicled: Vec<Entry>,
     order: CanonicalOrder,
-    /// Where all vehicles were at moments that are not looked at yet.
-    moments_m: Vec<Vec<Vec3>>,
     flock: Flock,
+    is_flock_watched: bool,
+    /// Moments of the window just advanced, and of those accepted, that are not looked at yet.
+    moments: [Vec<Moment>; 2],
     tally: Tally,
     digest: Digest,
+    /// Only where AUVs run freely.
+    deadlines: Option<Deadlines>,
+    /// The past before this is forgotten.
+    remembered: SimTime,
 }
 
 /// One piece of the swarm's part in a window: memory to work in, and the outcome. What is not taken from it keeps its memory.
@@ -111,6 +117,13 @@ struct Share {
     answers: Vec<Batch<Acted>>,
     sightings: Vec<Sighting>,
     losses: Vec<Loss>,
+}
+
+/// Where all vehicles were at one moment, and how those that live moved, where that is told.
+struct Moment {
+    at: SimTime,
+    positions_m: Vec<Vec3>,
+    flying: Option<Flying>,
 }
 
 impl Channel {
@@ -142,7 +155,7 @@ impl Channel {
         }
         Ok(Self {
             scenario: scenario.clone(),
-            tally: Tally::new(vehicles.len()),
+            tally: Tally::new(scenario),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
             places_m: vec![Vec3::zeros(); vehicles.len()],
@@ -155,15 +168,24 @@ impl Channel {
             happened: Vec::new(),
             chronicled: Vec::new(),
             order: CanonicalOrder::default(),
-            moments_m: Vec::new(),
             flock: Flock::default(),
+            is_flock_watched: false,
+            moments: Default::default(),
             digest: Digest::default(),
+            deadlines: None,
+            remembered: SimTime::ZERO,
         })
     }
 
     /// What each AUV is told at birth, sorted by AUV.
     pub fn born(&self) -> Vec<Born> {
         self.vehicles.iter().map(|vehicle| vehicle.born.clone()).collect()
+    }
+
+    /// From now on the chronicle tells once a simulated second how the swarm moves and holds together. Nothing else changes, not the
+    /// digest either.
+    pub fn watch_flock(&mut self) {
+        self.is_flock_watched = true;
     }
 
     /// All AUVs in the order of their first ticks, so that neighbours in the order tend to be due together.
@@ -218,6 +240,17 @@ impl Channel {
         // Buffers go round: fresh ones would cost more than what is written into them.
         self.happened.clear();
         std::mem::swap(&mut self.happened, &mut self.tally.counts.entries);
+        let [advanced, accepted] = &mut self.moments;
+        accepted.append(advanced);
+    }
+
+    /// As [`accept`](Channel::accept), for AUVs that run freely: answers may be to earlier windows, or come later. `by` is the true
+    /// time that the wall clock stands for; a tick whose answer is not in by its reaction time counts as a miss. What was
+    /// decided too late takes effect now, pings whose time has passed are lost as `late`, and reports are checked against the
+    /// truth of their ticks.
+    pub fn accept_late(&mut self, answers: Answers, by: SimTime) {
+        self.deadlines.get_or_insert_default().judge(&mut self.vehicles, by.max(self.now));
+        self.accept(answers);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
@@ -231,9 +264,9 @@ impl Channel {
             }
         }
         std::mem::swap(&mut self.chronicled, &mut self.happened);
+        self.look_at_moments();
         self.order.sort(&mut self.chronicled);
         self.digest.update(&self.chronicled)?;
-        self.watch_separation();
         Ok(&self.chronicled)
     }
 
@@ -251,24 +284,28 @@ impl Channel {
 
     /// What the run amounts to, as far as it is chronicled.
     pub fn summary(&self) -> Summary {
-        let poses: Vec<_> = self.vehicles.iter().map(|vehicle| vehicle.body.at(self.now)).collect();
-        let positions_m: Vec<Vec3> = poses.iter().map(|pose| pose.position_m).collect();
-        let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
-        let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
-        let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
+        let flock = self.flock.figures(&flying(&self.vehicles, self.now));
         let told = |vehicle: &Vehicle| ToldPings { heard: vehicle.pings_heard, windows: vehicle.windows() };
         let told: Vec<_> = self.vehicles.iter().map(told).collect();
         let in_flight = self.medium.in_flight();
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told)
+        let summary =
+            self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told);
+        let free_run = self.deadlines.as_ref().map(|deadlines| deadlines.summary(&self.vehicles));
+        Summary { reproducible: summary.reproducible && free_run.is_none(), free_run, ..summary }
     }
 
     /// Moves all bodies to `to`, and lets go what leaves before.
     fn move_bodies(&mut self, to: SimTime) {
         let now = self.now;
+        self.remembered = match &self.deadlines {
+            Some(_) => remembered_from(&self.vehicles, now),
+            None => now,
+        };
+        let remembered = self.remembered;
         share_out(&mut self.vehicles, &mut self.places_m, &mut self.shares, |vehicles, places_m, share| {
             share.leapt_m = 0.0;
             for (vehicle, place_m) in vehicles.iter_mut().zip(places_m) {
-                vehicle.forget_before(now);
+                vehicle.forget_before(remembered);
                 vehicle.body.integrate(to);
                 *place_m = vehicle.body.position_at(now);
                 share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));
@@ -282,17 +319,27 @@ impl Channel {
     /// Bodies forget where they were, so whoever looks at it later has to note it down.
     fn remember_places(&mut self, to: SimTime) {
         for at in Flock::samples(self.now, to) {
-            self.moments_m.push(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect());
+            let is_told = self.is_flock_watched && Flock::is_second(at);
+            self.moments[0].push(Moment {
+                at,
+                positions_m: self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect(),
+                flying: is_told.then(|| flying(&self.vehicles, at)),
+            });
         }
     }
 
-    fn watch_separation(&mut self) {
-        if self.moments_m.is_empty() {
+    fn look_at_moments(&mut self) {
+        let moments = &mut self.moments[1];
+        if moments.is_empty() {
             return;
         }
         let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
-        for positions_m in self.moments_m.drain(..) {
+        for Moment { at, positions_m, flying } in moments.drain(..) {
             self.flock.sample(&positions_m, &length_m);
+            if let Some(flying) = flying {
+                let what = What::Flock(self.flock.figures_lately(&flying));
+                self.chronicled.push(Entry { at, auv: AuvId(0), what });
+            }
         }
     }
 
@@ -303,6 +350,17 @@ impl Channel {
         vehicle.end(self.now);
         self.tally.lost(self.now, loss.auv, &vehicle.born.name, &loss.reason);
     }
+}
+
+/// The AUVs that live.
+fn flying(vehicles: &[Vehicle], at: SimTime) -> Flying {
+    let alive = vehicles.iter().filter(|vehicle| vehicle.alive);
+    alive
+        .map(|vehicle| {
+            let pose = vehicle.body.at(at);
+            (pose.position_m, pose.ground_velocity_m_s, vehicle.born.modem.range_m)
+        })
+        .collect()
 }
 
 /// Why no promise covers what an AUV states at `at` by what it knew at its tick at `known`, if none does.

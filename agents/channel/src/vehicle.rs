@@ -64,7 +64,8 @@ pub struct Vehicle {
     heard: Vec<HeardPing>,
     held: Vec<(LocalTime, SimTime)>,
     planned: VecDeque<Planned>,
-    answered: VecDeque<Tick>,
+    /// Ticks that wait for their answers.
+    pub answered: VecDeque<Tick>,
 }
 
 /// A ping that is booked.
@@ -259,8 +260,11 @@ impl Vehicle {
             return Err(format!("it answered tick {} when asked tick {}", acted.tick, tick.index));
         }
         let is_velocity = |component: &f64| component.is_finite() && component.abs() < 1e6;
-        if !acted.setpoint.velocity_m_s.iter().all(is_velocity) {
-            return Err("its setpoint is not a velocity".to_owned());
+        let mut components = acted.setpoint.velocity_m_s.iter().enumerate();
+        if let Some((axis, wrong)) = components.find(|(_, component)| !is_velocity(component)) {
+            return Err(format!(
+                "its setpoint.velocity_m_s[{axis}] is {wrong:?}, a velocity is finite and below 1e6 m/s"
+            ));
         }
         let ahead_ns = wake.reaction_ns + 2 * wake.period_ns;
         let scheduled = shortest_gap_ns(&orders.access).map_or(0, |gap_ns| ahead_ns / gap_ns) as usize;
@@ -277,10 +281,17 @@ impl Vehicle {
                 ));
             }
             if !(0..=LISTEN_MAX_NS).contains(&ping.listen_ns) {
-                return Err("it booked a ping that listens for no sensible time".to_owned());
+                return Err(format!(
+                    "it booked a ping with listen_ns {}, which is not from 0 to {LISTEN_MAX_NS}",
+                    ping.listen_ns
+                ));
             }
             if ping.at.ns().saturating_sub(tick.stamp.ns()) > ahead_ns + BOOKING_SLACK_NS {
-                return Err("it booked a ping far ahead of its time".to_owned());
+                return Err(format!(
+                    "it booked a ping at {} ns, far ahead of its tick at {} ns",
+                    ping.at.ns(),
+                    tick.stamp.ns()
+                ));
             }
         }
         Ok(())

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::arena::read_answer;
 use super::control::Control;
+use super::late::LateGroup;
 use super::members::{Group, InterruptHandle, Member, Shared};
 use super::{BUS, GROUP_MAX};
 use crate::codec;
@@ -25,7 +26,7 @@ use crate::wire::{NOT_A_MESSAGE, ToAuvRef, read_acted};
 const STALL_LIMIT: Duration = Duration::from_secs(300);
 
 /// How long the channel sleeps before it looks by itself; it is woken for everything that it must know.
-const LOOK_AGAIN: Duration = Duration::from_millis(20);
+pub(super) const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
 /// The same in a window in which an AUV died, perhaps just when it was to wake the channel.
 const LOOK_AGAIN_AFTER_LOSS: Duration = Duration::from_millis(1);
@@ -47,11 +48,14 @@ pub fn wake_groups(processes: &[Vec<AuvId>]) -> Vec<Vec<AuvId>> {
 pub struct SharedMemoryFleet {
     // The watching thread first: it refers to all the rest.
     watch: Watch,
-    groups: Vec<Group>,
-    members: Vec<Member>,
-    shared: Arc<Shared>,
+    pub(super) groups: Vec<Group>,
+    pub(super) members: Vec<Member>,
+    pub(super) shared: Arc<Shared>,
     window: u32,
     stall_limit: Duration,
+    pub(super) waited: Duration,
+    /// Groups that are at work past a deadline.
+    pub(super) late: Vec<LateGroup>,
     _node: Node<ipc::Service>,
 }
 
@@ -94,6 +98,8 @@ impl SharedMemoryFleet {
             shared,
             window: 0,
             stall_limit: STALL_LIMIT,
+            waited: Duration::ZERO,
+            late: Vec::new(),
             _node: node,
         })
     }
@@ -118,13 +124,13 @@ impl SharedMemoryFleet {
         InterruptHandle(Arc::clone(&self.shared))
     }
 
-    fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
+    pub(super) fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
         let found = self.members.binary_search_by_key(&auv, |member| member.auv);
         found.map_err(|_| failed(format_args!("AUV {auv} is in no wake-up group")))
     }
 
     /// Takes in the ends that were noticed since the last window.
-    fn bury(&mut self, losses: &mut Vec<Loss>) {
+    pub(super) fn bury(&mut self, losses: &mut Vec<Loss>) {
         for (member, has_ended) in self.members.iter_mut().zip(&self.shared.has_ended) {
             if member.is_alive && has_ended.load(Ordering::Acquire) {
                 member.lose(PROCESS_ENDED, losses);
@@ -132,7 +138,29 @@ impl SharedMemoryFleet {
         }
     }
 
-    /// Drops from `waiting` those that are done, and those whose process has ended before they were; sleeps until none is left.
+    /// Drops from `waiting` those that are done, and those whose process has ended before they were: whether there was any.
+    pub(super) fn settle(
+        &mut self,
+        waiting: &mut Vec<usize>,
+        losses: &mut Vec<Loss>,
+        is_done: &impl Fn(&Self, usize) -> bool,
+    ) -> bool {
+        let before = losses.len();
+        waiting.retain(|&index| {
+            // In this order: what an ended process had done by its end is final.
+            let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
+            if is_done(self, index) {
+                return false;
+            }
+            if has_ended {
+                self.members[index].lose(PROCESS_ENDED, losses);
+            }
+            !has_ended
+        });
+        losses.len() > before
+    }
+
+    /// Settles until none is left, and sleeps in between.
     fn wait(
         &mut self,
         mut waiting: Vec<usize>,
@@ -147,18 +175,9 @@ impl SharedMemoryFleet {
                 return Err(FleetError::Interrupted);
             }
             let before = waiting.len();
-            waiting.retain(|&index| {
-                // In this order: what an ended process had done by its end is final.
-                let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
-                if is_done(self, index) {
-                    return false;
-                }
-                if has_ended {
-                    self.members[index].lose(PROCESS_ENDED, losses);
-                    look_again = LOOK_AGAIN_AFTER_LOSS;
-                }
-                !has_ended
-            });
+            if self.settle(&mut waiting, losses, &is_done) {
+                look_again = LOOK_AGAIN_AFTER_LOSS;
+            }
             if waiting.is_empty() {
                 return Ok(());
             }
@@ -175,7 +194,10 @@ impl SharedMemoryFleet {
 
     /// Sends `messages` (of live members, sorted by member) group by group, so that the first group is at work while the next
     /// one's are encoded. Returns for each group the live members that have yet to deal with its sample.
-    fn send<T: Serialize>(&mut self, messages: &[(usize, T)]) -> Result<Vec<Vec<usize>>, FleetError> {
+    pub(super) fn send<T: Serialize>(
+        &mut self,
+        messages: &[(usize, T)],
+    ) -> Result<Vec<Vec<usize>>, FleetError> {
         self.window = self.window.wrapping_add(1);
         let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
         for (at, (member, _)) in messages.iter().enumerate() {
@@ -205,14 +227,20 @@ impl SharedMemoryFleet {
 
     /// Waits until these members have dealt with their group's sample.
     fn await_group(&mut self, waiting: Vec<usize>, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
-        self.wait(waiting, losses, |fleet, index| {
-            let slot = fleet.shared.control.slot(index);
-            slot.acknowledged.load(Ordering::Acquire) == fleet.groups[fleet.members[index].group].sequence
-        })
+        let since = Instant::now();
+        let waited = self.wait(waiting, losses, Self::has_acknowledged);
+        self.waited += since.elapsed();
+        waited
+    }
+
+    /// Whether a member has dealt with its group's last sample.
+    pub(super) fn has_acknowledged(&self, index: usize) -> bool {
+        let acknowledged = self.shared.control.slot(index).acknowledged.load(Ordering::Acquire);
+        acknowledged == self.groups[self.members[index].group].sequence
     }
 
     /// Takes the answers of one group out of its service. `due` is (member, ticks), sorted.
-    fn gather(
+    pub(super) fn gather(
         &mut self,
         group: usize,
         due: &[(usize, usize)],
@@ -260,7 +288,7 @@ impl SharedMemoryFleet {
         Ok(())
     }
 
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.groups.iter_mut().for_each(|group| group.arena.clear());
     }
 }
@@ -313,14 +341,27 @@ impl Fleet for SharedMemoryFleet {
         }
         let waiting = self.send(&messages)?;
         meanwhile();
+        self.waited = Duration::ZERO;
         // In the order of sending: while one group's answers are read, the next groups are at work.
         for (group, (waiting, due)) in waiting.into_iter().zip(due).enumerate() {
             self.await_group(waiting, &mut answers.losses)?;
             self.gather(group, &due, &mut answers)?;
         }
-        answers.acted.sort_by_key(|batch| batch.auv);
-        answers.losses.sort_by_key(|loss| loss.auv);
+        answers.sort();
         Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
+    }
+
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        self.exchange_freely(sensed, deadline, meanwhile)
     }
 
     fn end(&mut self) {
@@ -338,7 +379,7 @@ impl Drop for SharedMemoryFleet {
     }
 }
 
-fn failed(cause: impl Display) -> FleetError {
+pub(super) fn failed(cause: impl Display) -> FleetError {
     FleetError::Failed { bus: BUS, cause: cause.to_string() }
 }
 
