@@ -63,7 +63,7 @@ fn check(name: &str, auvs: Option<u32>, duration_s: f64, noise: &str, lives: &[(
         .restarted
         .iter()
         .zip(&summary.agents.lost)
-        .map(|(again, lost)| (again.auv, again.time_s > lost.time_s && again.reason == "test"))
+        .map(|(again, lost)| (again.auv, again.time_s >= lost.time_s && again.reason == "test"))
         .collect();
     let mut expected: Vec<(u32, bool)> = lives.iter().map(|life| (life.0, true)).collect();
     expected.sort_unstable();

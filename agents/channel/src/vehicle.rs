@@ -391,7 +391,7 @@ impl Vehicle {
         }
         self.between = None;
         self.last_tick_at = now;
-        while self.next_tick_at < now {
+        while self.next_tick_at <= now {
             self.next_tick += 1;
             self.next_tick_at = self.clock.reaches(self.stamp_of(self.next_tick));
         }
