@@ -142,7 +142,7 @@ fn three_transports_in_one_run_answer_as_one_program() {
     let expected = digest(&mut Local::new(Echo::new), COUNT, 40);
     let parts: Vec<usize> = (0..COUNT as usize).map(|auv| auv % 3).collect();
     let mut crew = Crew::new();
-    let mut memory = SharedMemoryFleet::create(&crew.run, &wake_groups(&carried(&parts, 0))).unwrap();
+    let mut memory = SharedMemoryFleet::create(&crew.run, &wake_groups(&seats(&carried(&parts, 0)))).unwrap();
     let endpoint = ZenohFleet::local_endpoint(&crew.run);
     let mut zenoh = ZenohFleet::create(&endpoint, crew.run.id(), &carried(&parts, 1)).unwrap();
     let bus_of = |auv: AuvId| [Some("iceoryx2"), Some("zenoh"), None][parts[auv.0 as usize]];
@@ -173,4 +173,9 @@ fn three_transports_in_one_run_answer_as_one_program() {
     fleet.end();
     drop(fleet);
     crew.disband();
+}
+
+/// A process for each.
+fn seats(auvs: &[AuvId]) -> Vec<Vec<AuvId>> {
+    auvs.iter().map(|auv| vec![*auv]).collect()
 }
