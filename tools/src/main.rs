@@ -14,6 +14,9 @@ mod exit;
 mod failure;
 mod figure;
 mod free_run;
+mod host;
+mod hosts_fleet;
+mod janitor;
 mod launch;
 mod localize;
 mod memory;
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
 fn command(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Run(args) => run::run(args),
+        Command::Host(args) => host::host(args),
         Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
         Command::Sweep(args) => sweep::sweep(args),
@@ -66,6 +70,9 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
+        Command::Janitor { run } => {
+            RunDir::open(run).while_doing("open the run's folder").and_then(|run| janitor::run(&run))
+        }
         Command::Channel { run } => {
             RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))
         }

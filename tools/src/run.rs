@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use shoal_auv::Auv;
 use shoal_bus::local::Local;
@@ -13,7 +13,7 @@ use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
 use shoal_scenario::Scenario;
 
-use crate::agent_process::check_commands;
+use crate::agent_process::{check_commands, needs_no_processes};
 use crate::cli::{Bus, RunArgs};
 use crate::conduct::conduct;
 use crate::drive::{Ending, Observer};
@@ -43,11 +43,8 @@ pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
         FreePlan::window_ns(&scenario, order.changes.window_ms.is_some())?;
     }
     check_commands(&scenario, &order)?;
-    if let (Bus::Local, Some(group)) = (order.bus, scenario.groups.iter().find(|of| of.command.is_some())) {
-        return Err(Failure::usage(format!(
-            "the AUVs of group `{}` are programs of their own, and the local bus has no processes: use `--bus iceoryx2` or `--bus zenoh`",
-            group.name
-        )));
+    if order.bus == Bus::Local {
+        needs_no_processes(&scenario, "use `--bus iceoryx2` or `--bus zenoh`")?;
     }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;
@@ -81,7 +78,7 @@ fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
         "scenario": scenario.name,
         "seed": scenario.seed,
         "auvs": scenario.auv_count(),
-        "bus": order.bus.name(),
+        "bus": order.bus_name(),
         "launcher": std::process::id(),
     })
 }
@@ -119,7 +116,12 @@ fn in_processes(
             }
             FromChannel::Progress(sim_s) => bar.advance(sim_s),
             FromChannel::Note(note) => bar.note(&note),
-            FromChannel::Failed { message } => return Err(Failure { exit: Exit::Failed, message }),
+            FromChannel::News(news) => bar.log(&news),
+            FromChannel::Failed { message } => {
+                // What the user's programs said may be why.
+                show_words(&swarm.wait(Duration::ZERO), bar);
+                return Err(Failure { exit: Exit::Failed, message });
+            }
             FromChannel::Done(mut done) => {
                 done.summary.startup_s = startup_s;
                 channel.wait();
@@ -133,9 +135,7 @@ fn in_processes(
                         };
                     }
                 }
-                for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
-                    bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
-                }
+                show_words(&endings, bar);
                 for ending in endings.iter().filter(|ending| ending.was_killed) {
                     let lost = &done.summary.agents.lost;
                     if !lost.iter().any(|lost| ending.seat.auvs.contains(&lost.auv)) {
@@ -151,6 +151,13 @@ fn in_processes(
     }
 }
 
+/// Shows what the user's programs wrote.
+fn show_words(endings: &[ProcessEnding], bar: &Bar) {
+    for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
+        bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
+    }
+}
+
 /// No processes: the reference.
 fn in_this_program(
     order: &Order,
@@ -162,7 +169,10 @@ fn in_this_program(
     let began = Instant::now();
     let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let mut fleet = Local::on_all_cores(Auv::new);

@@ -7,7 +7,7 @@ use shoal_scenario::{Overrides, Scenario, library, load, parse};
 
 use crate::cli::{Bus, Changes, Pace, RunArgs};
 use crate::failure::{Failure, While};
-use crate::launch::Order;
+use crate::launch::{HostsOrder, Order};
 use crate::set::Setting;
 
 impl Order {
@@ -33,11 +33,17 @@ impl Order {
             bus: args.bus,
             auvs_per_process: args.auvs_per_process.unwrap_or(NonZeroU32::MIN),
             endpoint: args.endpoint.clone(),
+            hosts: HostsOrder::read(args)?,
             pace: pace(args)?,
             free_run: args.free_run,
             timings: args.timings,
             record: args.record.clone(),
         })
+    }
+
+    /// What carries the messages, as summaries say it.
+    pub fn bus_name(&self) -> &'static str {
+        if self.hosts.is_some() { "hosts" } else { self.bus.name() }
     }
 
     /// The scenario, validated, with the command line's changes.

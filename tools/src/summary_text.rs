@@ -75,6 +75,13 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         seconds(clock.end_median),
         seconds(clock.end_max)
     )?;
+    if let Some(off) = &summary.off_station_m {
+        writeln!(
+            text,
+            "  station       {:.2} m off at first, {:.2} m at last in the median, {:.2} m at most",
+            off.start_median, off.end_median, off.end_max
+        )?;
+    }
     let lost = &pings.lost;
     let outliers = match pings.outliers {
         0 => String::new(),
@@ -106,11 +113,14 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         .collect();
     let lost = if lost.is_empty() { "none".to_owned() } else { lost.join(", ") };
     writeln!(text, "                lost: {lost}; still under way: {}", grouped(pings.in_flight))?;
+    let components = if flock.components == 1 { "component" } else { "components" };
     let separation = flock.min_separation_m.map_or("-".to_owned(), |metres| format!("{metres:.2} m"));
     writeln!(
         text,
-        "  flock         polarization {:.2}, least separation {separation}, {} collisions, connectivity {:.2}",
-        flock.polarization, flock.collisions, flock.connectivity
+        "  flock         polarization {:.2}, least separation {separation}, {} collisions, {} {components}",
+        flock.polarization,
+        flock.collisions,
+        grouped(u64::from(flock.components))
     )?;
     for lost in &summary.agents.lost {
         writeln!(
@@ -121,6 +131,9 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             number(lost.time_s),
             lost.reason
         )?;
+    }
+    for again in &summary.agents.restarted {
+        writeln!(text, "  born again    {} (AUV {}) at {} s", again.name, again.auv, number(again.time_s))?;
     }
     if let Some(free_run) = &summary.free_run {
         write_deadlines(text, free_run)?;

@@ -210,6 +210,7 @@ impl<W: Write> RecordWriter<W> {
             What::Traffic(traffic) => batch.traffic(traffic),
             What::Violation(violation) => batch.violation(at, name, violation),
             What::Ended(reason) => batch.ended(at, name, reason),
+            What::Flock(flock) => batch.flock(at, flock),
         }
     }
 
