@@ -66,10 +66,7 @@ impl SharedMemoryFleet {
     }
 
     /// Takes the batches of live members whose groups are done with the sample before, and drops those of the dead.
-    fn take_ready(
-        &self,
-        sensed: &mut Vec<Batch<Sensed>>,
-    ) -> Result<Vec<(usize, Batch<Sensed>)>, FleetError> {
+    fn take_ready(&self, sensed: &mut Vec<Batch<Sensed>>) -> Result<Vec<(usize, Batch<Sensed>)>, FleetError> {
         let mut ready = Vec::with_capacity(sensed.len());
         for batch in std::mem::take(sensed) {
             let index = self.index(batch.auv)?;
