@@ -30,7 +30,16 @@ pub fn shoal() -> &'static Path {
             Some(name) => name,
         };
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let built = std::process::Command::new(cargo)
+        let mut build = std::process::Command::new(cargo);
+        // What cargo tells a test of its own package would make `ring`, and all that needs it, build anew.
+        let of_this_package = |name: &OsStr| {
+            name.to_str()
+                .is_some_and(|name| name.starts_with("CARGO_PKG") || name.starts_with("CARGO_MANIFEST"))
+        };
+        for (name, _) in std::env::vars_os().filter(|(name, _)| of_this_package(name)) {
+            build.env_remove(name);
+        }
+        let built = build
             .args(["build", "--quiet", "--package", "shoal", "--profile", profile])
             .arg("--target-dir")
             .arg(folder.parent().expect("a profile's folder lies in the target folder"))

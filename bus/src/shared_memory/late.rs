@@ -31,8 +31,7 @@ impl SharedMemoryFleet {
         self.bury(&mut answers.losses);
         self.gather_late(&mut answers)?;
 
-        let (ready, unsent) = self.who_is_ready(std::mem::take(sensed))?;
-        *sensed = unsent;
+        let ready = self.take_ready(sensed)?;
         let mut due: Vec<Vec<(usize, usize)>> = vec![Vec::new(); self.groups.len()];
         for (index, batch) in &ready {
             due[self.members[*index].group].push((*index, batch.items.len()));
@@ -66,25 +65,22 @@ impl SharedMemoryFleet {
         Ok(answers)
     }
 
-    /// Live members with their batches, sorted, whose groups are done with the sample before; and the batches of the others.
-    #[expect(clippy::type_complexity, reason = "two lists, named where they are taken")]
-    fn who_is_ready(
-        &self,
-        sensed: Vec<Batch<Sensed>>,
-    ) -> Result<(Vec<(usize, Batch<Sensed>)>, Vec<Batch<Sensed>>), FleetError> {
-        let (mut ready, mut unsent) = (Vec::new(), Vec::new());
-        for batch in sensed {
+    /// Takes the batches of live members whose groups are done with the sample before, and drops those of the dead.
+    fn take_ready(&self, sensed: &mut Vec<Batch<Sensed>>) -> Result<Vec<(usize, Batch<Sensed>)>, FleetError> {
+        let mut ready = Vec::with_capacity(sensed.len());
+        for batch in std::mem::take(sensed) {
             let index = self.index(batch.auv)?;
             let member = &self.members[index];
             if !member.is_alive {
                 continue;
             }
-            match self.late.iter().any(|late| late.group == member.group) {
-                true => unsent.push(batch),
-                false => ready.push((index, batch)),
+            if self.late.iter().any(|late| late.group == member.group) {
+                sensed.push(batch);
+            } else {
+                ready.push((index, batch));
             }
         }
-        Ok((ready, unsent))
+        Ok(ready)
     }
 
     /// Takes the answers of the groups that are done.
