@@ -59,7 +59,7 @@ fn carry_out<M: Mind>(
         let to = (channel.now() + window_ns).min(channel.end());
         let sensed = channel.advance(to)?;
         let answers = fleet.exchange(&sensed, &mut || {})?;
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         channel.chronicle()?.iter().for_each(&mut watch);
     }
     Ok(channel.summary())

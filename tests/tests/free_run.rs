@@ -122,7 +122,8 @@ fn whatever_comes_late_is_true() {
                 break;
             }
             let to = (channel.now() + channel.lookahead_ns() / 4).min(channel.end());
-            for Batch { auv, items } in channel.advance(to).unwrap() {
+            let sensed = channel.advance(to).unwrap();
+            for Batch { auv, items } in sensed.clone() {
                 match waiting.iter_mut().find(|batch: &&mut Batch<_>| batch.auv == auv) {
                     Some(batch) => batch.items.extend(items),
                     None => waiting.push(Batch { auv, items }),
@@ -134,7 +135,7 @@ fn whatever_comes_late_is_true() {
             let (late, ready) = waiting.into_iter().partition(|batch| is_late(batch.auv.0));
             waiting = late;
             let answers: Answers = fleet.exchange(&ready, &mut || {}).unwrap();
-            channel.accept_late(answers, to);
+            channel.accept_late(sensed, answers, to);
             let since = channel.chronicle().unwrap().iter().map(|entry| entry.at).min();
             assert!(
                 since.is_none_or(|since| since >= to + -channel.lookahead_ns()),

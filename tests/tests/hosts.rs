@@ -253,7 +253,7 @@ fn wrong_addresses_and_files_are_told() {
     fails(host(&nobody, "lonely", 1).and("--wait 1"), 1, "nobody could be reached at tcp/127.0.0.1:");
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
-    fails(run(CIRCLES, &endpoint, 1), 1, "choose another with --listen");
+    fails(run(CIRCLES, &endpoint, 1), 1, "Address already in use (os error 98); is the port in use");
     fails(Command::new("host --connect 127.0.0.1 --slots 1"), 2, "tcp/ADDRESS:PORT");
     fails(Command::new("host --connect tcp/127.0.0.1:7447 --slots 0"), 2, "--slots");
     fails(Command::new("run six-circles --listen tcp/127.0.0.1:7447"), 2, "--hosts");

@@ -28,7 +28,7 @@ fn run(scenario: &Scenario, lives: &[(u32, f64, f64)]) -> (Summary, Vec<u64>) {
             answers.acted.retain(|batch| batch.auv != AuvId(auv));
             answers.losses.push(Loss { auv: AuvId(auv), reason: "test".into() });
         }
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         let again: Vec<AuvId> =
             lives.iter().filter(|life| is_now(life.2)).map(|life| AuvId(life.0)).collect();
         for entry in channel.chronicle().unwrap() {
@@ -63,7 +63,7 @@ fn check(name: &str, auvs: Option<u32>, duration_s: f64, noise: &str, lives: &[(
         .restarted
         .iter()
         .zip(&summary.agents.lost)
-        .map(|(again, lost)| (again.auv, again.time_s > lost.time_s && again.reason == "test"))
+        .map(|(again, lost)| (again.auv, again.time_s >= lost.time_s && again.reason == "test"))
         .collect();
     let mut expected: Vec<(u32, bool)> = lives.iter().map(|life| (life.0, true)).collect();
     expected.sort_unstable();

@@ -98,7 +98,7 @@ fn windows(
             Err(error) => return Err(Failure::failed(error)),
         };
         let loss = answers.losses.first().cloned();
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         watch.lap(Phase::Accept);
         watch.end(to);
         if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {

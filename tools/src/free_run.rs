@@ -84,7 +84,8 @@ fn windows(
         }
         *lag_max = (*lag_max).max(clock.due(to).elapsed());
         watch.begin();
-        backlog.add(channel.advance(to).map_err(Failure::failed)?);
+        let sensed = channel.advance(to).map_err(Failure::failed)?;
+        backlog.add(sensed.clone());
         watch.lap(Phase::Channel);
         let mut told = Ok(());
         // Until the next window is due.
@@ -103,7 +104,7 @@ fn windows(
         };
         let loss = answers.losses.first().cloned();
         answers.losses.iter().for_each(|loss| backlog.forget(loss.auv));
-        channel.accept_late(answers, clock.now());
+        channel.accept_late(sensed, answers, clock.now());
         watch.lap(Phase::Accept);
         watch.end(to);
         if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {

@@ -183,8 +183,10 @@ impl Carried<'_> {
 
 impl Crew for Carried<'_> {
     fn start(&mut self, assignment: &Assignment) -> Result<Box<dyn Relay>, FleetError> {
-        self.try_start(assignment)
-            .map_err(|failure| FleetError::Setup { bus: Bus::Iceoryx2.name(), cause: failure.message })
+        self.try_start(assignment).map_err(|failure| FleetError::Setup {
+            bus: Bus::Iceoryx2.name(),
+            cause: failure.message.trim_start_matches("error: ").to_owned(),
+        })
     }
 
     fn processes(&self) -> u32 {

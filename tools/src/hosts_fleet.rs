@@ -42,7 +42,7 @@ impl HostsOrder {
         order: &Order,
         scenario: &Scenario,
         auvs: Vec<AuvId>,
-        mut tell: impl FnMut(&str) + 'static,
+        mut tell: impl FnMut(&str) + Copy + 'static,
     ) -> Result<HostsFleet, Failure> {
         let terms = Terms {
             name: scenario.name.clone(),
@@ -59,7 +59,8 @@ impl HostsOrder {
         let hosts = if count == 1 { "1 host".to_owned() } else { format!("{count} hosts") };
         let waiting =
             format!("waiting for {hosts} on {listen}: start `shoal host --connect {listen} --slots N` there");
+        let fleet = HostsFleet::listen(listen, &network, terms, tell).map_err(Failure::failed)?;
         tell(&waiting);
-        HostsFleet::listen(listen, &network, terms, tell).map_err(Failure::failed)
+        Ok(fleet)
     }
 }

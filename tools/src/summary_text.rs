@@ -132,6 +132,9 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             lost.reason
         )?;
     }
+    for again in &summary.agents.restarted {
+        writeln!(text, "  born again    {} (AUV {}) at {} s", again.name, again.auv, number(again.time_s))?;
+    }
     if let Some(free_run) = &summary.free_run {
         write_deadlines(text, free_run)?;
     }

@@ -23,7 +23,7 @@ use crate::digest::Digest;
 use crate::flock::{Flock, Flying};
 use crate::grid::Grid;
 use crate::medium::Medium;
-use crate::parallel::{PIECE, share_out, shares_of};
+use crate::parallel::{PIECE, shares_of};
 use crate::sound::Told;
 use crate::tally::{Counts, Excuse, Tally, ToldPings};
 use crate::vehicle::{Planned, Vehicle};
@@ -69,8 +69,8 @@ pub enum ChannelError {
 /// assert_eq!(sensed.len(), 2);
 /// assert!((8..=10).contains(&sensed[0].items.len()));
 /// // Nobody answered: both bodies go on as they were.
-/// channel.accept(Answers::default());
-/// assert!(channel.chronicle()?.len() >= 2 * sensed[0].items.len());
+/// channel.accept(sensed, Answers::default());
+/// assert!(channel.chronicle()?.len() >= 2 * (8 + 8));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Channel {
@@ -80,6 +80,8 @@ pub struct Channel {
     grid: Grid,
     /// Where all vehicles were when the window began.
     places_m: Vec<Vec3>,
+    /// Memory of what was told, to be written anew.
+    batches: Vec<Batch<Sensed>>,
     fastest_m_s: f64,
     lookahead_ns: i64,
     /// One for each piece of the swarm.
@@ -111,12 +113,29 @@ struct Share {
     told: Vec<Told>,
     /// The earliest wavefront that anyone waits for.
     waits_for: Option<u64>,
+    /// Numbers of wavefronts that left for someone and will never be noticed there.
+    beyond: Vec<u64>,
+    /// Where each was when the window ended.
+    places_m: Vec<Vec3>,
+    /// Where each was at the moments to be noted down.
+    moments_m: Vec<Vec3>,
     batches: Vec<Batch<Sensed>>,
-    /// Memory of events that were chronicled, to be written anew: fresh one would cost more than what is written into it.
-    spare: Vec<Vec<Event>>,
+    /// True times of what is in the batches.
+    sensed_at: Vec<SimTime>,
+    spare: Spare,
+    sensed: Vec<Batch<Sensed>>,
     answers: Vec<Batch<Acted>>,
     sightings: Vec<Sighting>,
     losses: Vec<Loss>,
+}
+
+/// Memory to be written anew: fresh one would cost more than what is written into it.
+#[derive(Default)]
+struct Spare {
+    items: Vec<Vec<Sensed>>,
+    events: Vec<Vec<Event>>,
+    #[expect(clippy::vec_box, reason = "entries hold them in boxes, and it is the boxes that are spared")]
+    acted: Vec<Box<Acted>>,
 }
 
 /// Where all vehicles were at one moment, and how those that live moved, where that is told.
@@ -158,7 +177,8 @@ impl Channel {
             tally: Tally::new(scenario),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
-            places_m: vec![Vec3::zeros(); vehicles.len()],
+            places_m: vehicles.iter().map(|vehicle| vehicle.body.position_at(SimTime::ZERO)).collect(),
+            batches: Vec::new(),
             lookahead_ns: vehicles.iter().map(Vehicle::lookahead_ns).min().unwrap_or(i64::MAX),
             shares: (0..shares_of(vehicles.len())).map(|_| Share::default()).collect(),
             fastest_m_s: vehicles.iter().map(|vehicle| vehicle.ground_speed_m_s).fold(0.0, f64::max),
@@ -221,17 +241,20 @@ impl Channel {
         if window_ns > lookahead_ns {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
-        self.move_bodies(to);
-        self.depart();
+        self.remembered = match &self.deadlines {
+            Some(_) => remembered_from(&self.vehicles, self.now),
+            None => self.now,
+        };
+        self.depart(to);
         let batches = self.live(to);
-        self.remember_places(to);
         self.now = to;
         Ok(batches)
     }
 
-    /// Takes the answers to the window just advanced and checks them. What happened in it waits for
-    /// [`chronicle`](Channel::chronicle).
-    pub fn accept(&mut self, answers: Answers) {
+    /// Takes back what [`advance`](Channel::advance) gave, for the chronicle, and takes the answers and checks them. What happened in
+    /// the window waits for [`chronicle`](Channel::chronicle).
+    pub fn accept(&mut self, sensed: Vec<Batch<Sensed>>, answers: Answers) {
+        self.take_back(sensed);
         self.take_answers(answers.acted);
         for loss in answers.losses {
             self.lose(loss);
@@ -248,19 +271,23 @@ impl Channel {
     /// time that the wall clock stands for; a tick whose answer is not in by its reaction time counts as a miss. What was
     /// decided too late takes effect now, pings whose time has passed are lost as `late`, and reports are checked against the
     /// truth of their ticks.
-    pub fn accept_late(&mut self, answers: Answers, by: SimTime) {
+    pub fn accept_late(&mut self, sensed: Vec<Batch<Sensed>>, answers: Answers, by: SimTime) {
         self.deadlines.get_or_insert_default().judge(&mut self.vehicles, by.max(self.now));
-        self.accept(answers);
+        self.accept(sensed, answers);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
     /// apart from [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
-        for entry in self.chronicled.drain(..) {
-            if let What::Sensed(sensed) = entry.what
-                && let Some(share) = self.shares.get_mut(entry.auv.0 as usize / PIECE)
-            {
-                share.spare.push(sensed.events);
+        for Entry { auv, what, .. } in self.chronicled.drain(..) {
+            let Some(share) = self.shares.get_mut(auv.0 as usize / PIECE) else { continue };
+            match what {
+                What::Sensed(Sensed { mut events, .. }) => {
+                    events.clear();
+                    share.spare.events.push(events);
+                }
+                What::Acted(acted) => share.spare.acted.push(acted),
+                _ => {}
             }
         }
         std::mem::swap(&mut self.chronicled, &mut self.happened);
@@ -292,40 +319,6 @@ impl Channel {
             self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told);
         let free_run = self.deadlines.as_ref().map(|deadlines| deadlines.summary(&self.vehicles));
         Summary { reproducible: summary.reproducible && free_run.is_none(), free_run, ..summary }
-    }
-
-    /// Moves all bodies to `to`, and lets go what leaves before.
-    fn move_bodies(&mut self, to: SimTime) {
-        let now = self.now;
-        self.remembered = match &self.deadlines {
-            Some(_) => remembered_from(&self.vehicles, now),
-            None => now,
-        };
-        let remembered = self.remembered;
-        share_out(&mut self.vehicles, &mut self.places_m, &mut self.shares, |vehicles, places_m, share| {
-            share.leapt_m = 0.0;
-            for (vehicle, place_m) in vehicles.iter_mut().zip(places_m) {
-                vehicle.forget_before(remembered);
-                vehicle.body.integrate(to);
-                *place_m = vehicle.body.position_at(now);
-                share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));
-                while let Some(planned) = vehicle.next_emission(to) {
-                    share.leaving.push((vehicle.born.auv, planned));
-                }
-            }
-        });
-    }
-
-    /// Bodies forget where they were, so whoever looks at it later has to note it down.
-    fn remember_places(&mut self, to: SimTime) {
-        for at in Flock::samples(self.now, to) {
-            let is_told = self.is_flock_watched && Flock::is_second(at);
-            self.moments[0].push(Moment {
-                at,
-                positions_m: self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect(),
-                flying: is_told.then(|| flying(&self.vehicles, at)),
-            });
-        }
     }
 
     fn look_at_moments(&mut self) {

@@ -200,6 +200,11 @@ impl Vehicle {
         self.kidnappings.push(Kidnapping { at, noticed: None });
     }
 
+    /// Whether it is carried elsewhere at any time of the run.
+    pub fn is_ever_kidnapped(&self) -> bool {
+        !self.kidnappings.is_empty()
+    }
+
     /// Whether what it states at `at`, by what it knew at its tick at `known`, may rest on where it was before a kidnapping: it has
     /// not said since that nothing was left of its set.
     pub fn is_kidnapped_at(&self, at: SimTime, known: SimTime) -> bool {
@@ -305,13 +310,19 @@ impl Vehicle {
         self.planned.insert(place, Planned { at, stamp, listen_ns, frame, booked });
     }
 
-    /// The next booked ping that leaves before `horizon`.
-    pub fn next_emission(&mut self, horizon: SimTime) -> Option<Planned> {
-        if self.planned.front()?.at >= horizon { None } else { self.planned.pop_front() }
+    /// Whether a booked ping leaves before `horizon`.
+    pub fn emits_before(&self, horizon: SimTime) -> bool {
+        self.planned.front().is_some_and(|next| next.at < horizon)
     }
 
-    /// What it senses at its next tick, which comes before the horizon that its body is integrated to.
-    pub fn sense(&mut self) -> (Tick, Sensed) {
+    /// The next booked ping that leaves before `horizon`.
+    pub fn next_emission(&mut self, horizon: SimTime) -> Option<Planned> {
+        if self.emits_before(horizon) { self.planned.pop_front() } else { None }
+    }
+
+    /// What it senses at its next tick, which comes before the horizon that its body is integrated to, written to `events`, which
+    /// are empty.
+    pub fn sense(&mut self, mut events: Vec<Event>) -> (Tick, Sensed) {
         let wake = self.born.wake;
         let stamp = self.stamp_of(self.next_tick);
         let at = self.next_tick_at;
@@ -319,7 +330,6 @@ impl Vehicle {
         let (between_position_m, between_offset_s) =
             self.between.take().unwrap_or_else(|| self.truth_at(self.between_ticks()));
 
-        let mut events = Vec::with_capacity(self.heard.len() + 4);
         // The sensors speak last, so that hardly anything is left to sort.
         self.hand_over_heard(stamp, at, &mut events);
         self.hand_over_held(stamp, at, &mut events);
@@ -381,7 +391,7 @@ impl Vehicle {
         }
         self.between = None;
         self.last_tick_at = now;
-        while self.next_tick_at < now {
+        while self.next_tick_at <= now {
             self.next_tick += 1;
             self.next_tick_at = self.clock.reaches(self.stamp_of(self.next_tick));
         }
@@ -401,8 +411,14 @@ impl Vehicle {
         self.first_tick + tick as i64 * self.born.wake.period_ns
     }
 
+    /// Moves on to `to`, and forgets what lies before `remembered`. A second time changes nothing.
+    pub fn move_on(&mut self, remembered: SimTime, to: SimTime) {
+        self.forget_before(remembered);
+        self.body.integrate(to);
+    }
+
     /// Forgets the past that no later window of true time from `now` on asks for.
-    pub fn forget_before(&mut self, now: SimTime) {
+    fn forget_before(&mut self, now: SimTime) {
         if self.alive && self.between.is_none() && self.between_ticks() < now {
             self.between = Some(self.truth_at(self.between_ticks()));
         }

@@ -56,6 +56,7 @@ pub struct HostsFleet {
     pub(super) has_begun: bool,
     has_ended: bool,
     processes: Arc<AtomicU32>,
+    waited: Duration,
     news: Box<dyn FnMut(&str)>,
 }
 
@@ -139,6 +140,7 @@ impl HostsFleet {
             has_begun: false,
             has_ended: false,
             processes: Arc::default(),
+            waited: Duration::ZERO,
             news: Box::new(news),
         })
     }
@@ -403,12 +405,18 @@ impl Fleet for HostsFleet {
             member.awaits = Awaits::Answers;
         }
         meanwhile();
+        let waiting_since = Instant::now();
         self.wait(STALL_LIMIT)?;
+        self.waited = waiting_since.elapsed();
         let mut answers =
             Answers { acted: std::mem::take(&mut self.acted), losses: std::mem::take(&mut self.losses) };
         answers.acted.sort_by_key(|batch| batch.auv);
         answers.losses.sort_by_key(|loss| loss.auv);
         Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
     }
 
     fn vacancies(&mut self) -> Vec<AuvId> {

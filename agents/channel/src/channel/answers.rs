@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Violation, What};
 use shoal_bus::lockstep::{Batch, Loss};
-use shoal_bus::message::{Acted, Around, AuvId};
+use shoal_bus::message::{Acted, Around, AuvId, Sensed};
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
 
@@ -32,6 +32,16 @@ struct Moment {
 }
 
 impl Channel {
+    /// Takes back what the AUVs were told.
+    pub(super) fn take_back(&mut self, mut sensed: Vec<Batch<Sensed>>) {
+        for batch in sensed.drain(..) {
+            if let Some(share) = self.shares.get_mut(batch.auv.0 as usize / PIECE) {
+                share.sensed.push(batch);
+            }
+        }
+        self.batches = sensed;
+    }
+
     /// Takes what the AUVs answer to their ticks, each for itself.
     pub(super) fn take_answers(&mut self, answers: Vec<Batch<Acted>>) {
         for batch in answers {
@@ -42,6 +52,7 @@ impl Channel {
         let moment = Moment { now: self.now, begun: self.accepted, remembered: self.remembered };
         let scores = &mut self.tally.scores;
         share_out(&mut self.vehicles, scores, &mut self.shares, |vehicles, scores, share| {
+            chronicle_senses(share);
             for Batch { auv, items } in std::mem::take(&mut share.answers) {
                 let index = auv.0 as usize % PIECE;
                 if let (Some(vehicle), Some(score)) = (vehicles.get_mut(index), scores.get_mut(index)) {
@@ -57,6 +68,18 @@ impl Channel {
         }
         let losses: Vec<Loss> = self.shares.iter_mut().flat_map(|share| share.losses.drain(..)).collect();
         losses.into_iter().for_each(|loss| self.lose(loss));
+    }
+}
+
+/// Enters what was told in the window.
+fn chronicle_senses(share: &mut Share) {
+    let Share { counts, sensed, sensed_at, spare, .. } = share;
+    let mut sensed_at = sensed_at.drain(..);
+    for Batch { auv, mut items } in sensed.drain(..) {
+        for (sensed, at) in items.drain(..).zip(&mut sensed_at) {
+            counts.happened(at, auv, What::Sensed(sensed));
+        }
+        spare.items.push(items);
     }
 }
 
@@ -115,7 +138,14 @@ fn answer(
     if promises && !report.around.is_empty() && tick.at >= moment.remembered {
         share.sightings.push(Sighting { entry: counts.entries.len(), tick, excuse });
     }
-    counts.happened(told_at, auv, What::Acted(Box::new(acted)));
+    let acted = match share.spare.acted.pop() {
+        Some(mut spare) => {
+            *spare = acted;
+            spare
+        }
+        None => Box::new(acted),
+    };
+    counts.happened(told_at, auv, What::Acted(acted));
     Ok(())
 }
 
