@@ -101,7 +101,7 @@ fn whatever_a_program_does_wrong_costs_only_itself() {
         ("version", "it speaks protocol 99, this build speaks protocol 1"),
         ("no hello", "expected {\"protocol\":1,\"dialect\":\"json\"}"),
         ("misspelt", "unknown field `setpont`, expected one of `tick`, `setpoint`, `pings`, `report`"),
-        ("text", "invalid type: string \"fast\", expected f64, at ...\"setpoint\""),
+        ("text", "invalid type: string \"fast\", expected f64, at ...20, \"setpoint\": {\"velocity_m_s\""),
         ("huge", "setpoint.velocity_m_s[2] is 1e300"),
         ("nan", "\"setpoint\": {\"velocity_m_s\": [N"),
         ("nothing", "answered 0 of 1 ticks"),
