@@ -161,7 +161,9 @@ pub enum HostError {
         reason: String,
     },
     /// The launcher does not know this host's token.
-    #[error("the launcher does not know this host's token, so this host does not join: give both ends the same --token FILE")]
+    #[error(
+        "the launcher does not know this host's token, so this host does not join: give both ends the same --token FILE"
+    )]
     Launcher,
     /// The launcher runs something else.
     #[error("this host insists on a scenario with hash {only}, and the launcher runs {found}")]

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use shoal_bus::lockstep::{Fleet, FleetError};
 use shoal_bus::message::AuvId;
 use shoal_bus::run_dir::RunDir;
-use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
+use shoal_bus::shared_memory::SharedMemoryFleet;
 use shoal_bus::summary::{Memory, Summary};
 use shoal_bus::zenoh::ZenohFleet;
 use shoal_channel::channel::Channel;
@@ -72,8 +72,8 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
     let launched = match order.bus {
         Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
         Bus::Iceoryx2 => {
-            let groups = wake_groups(&in_wake_order(&seats, &channel));
-            let mut fleet = SharedMemoryFleet::create(run, &groups).map_err(Failure::failed)?;
+            let processes = in_wake_order(&seats, &channel);
+            let mut fleet = SharedMemoryFleet::create(run, &processes).map_err(Failure::failed)?;
             let interrupt = fleet.interrupt_handle();
             let launched = Launched::wait(seats, lines, orphaned, move || interrupt.interrupt())?;
             fleet.attach_processes(&launched.processes()).map_err(Failure::failed)?;

@@ -10,6 +10,7 @@ mod exit;
 mod failure;
 mod figure;
 mod launch;
+mod limits;
 mod localize;
 mod memory;
 mod observers;

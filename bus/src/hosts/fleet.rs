@@ -268,7 +268,10 @@ impl HostsFleet {
             self.tell(&format!("{reason}; it carried nobody"));
         } else {
             let shown = super::ranges(&auvs);
-            self.tell(&format!("{reason}: AUVs {shown} are lost until another host with {} slots joins", auvs.len()));
+            self.tell(&format!(
+                "{reason}: AUVs {shown} are lost until another host with {} slots joins",
+                auvs.len()
+            ));
             self.orphans.push(auvs);
         }
     }

@@ -124,11 +124,8 @@ impl Pulse {
         }
         let beat = Frame::Beat(self.sent.load(Ordering::Acquire)).write();
         // One that cannot be sent is like one that is lost.
-        let _lost = session
-            .put(&self.key, beat)
-            .congestion_control(CongestionControl::Drop)
-            .express(true)
-            .wait();
+        let _lost =
+            session.put(&self.key, beat).congestion_control(CongestionControl::Drop).express(true).wait();
         let silent = self.silent.fetch_add(1, Ordering::Relaxed);
         (silent > limit_beats).then_some(Stopped::Silent)
     }

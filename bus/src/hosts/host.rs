@@ -370,7 +370,10 @@ fn ask(
     loop {
         if asked.is_none_or(|asked: Instant| asked.elapsed() >= ASK_AGAIN) {
             if since.elapsed() > offer.wait + ASK_AGAIN {
-                return Err(HostError::NoAnswer { endpoint: offer.endpoint.clone(), wait_s: offer.wait.as_secs() });
+                return Err(HostError::NoAnswer {
+                    endpoint: offer.endpoint.clone(),
+                    wait_s: offer.wait.as_secs(),
+                });
             }
             knock(&Handshake::Join(join.clone()));
             asked = Some(Instant::now());
@@ -394,7 +397,9 @@ fn ask(
             Ok(Handshake::Welcome(welcome)) => {
                 let is_proven = |token: &String| {
                     let stated = welcome.proof.as_deref().zip(nonce.as_deref());
-                    stated.is_some_and(|(stated, nonce)| is_proof(stated, token, Prover::Launcher, &join.nonce, nonce))
+                    stated.is_some_and(|(stated, nonce)| {
+                        is_proof(stated, token, Prover::Launcher, &join.nonce, nonce)
+                    })
                 };
                 if offer.token.as_ref().is_some_and(|token| !is_proven(token)) {
                     return Err(HostError::Launcher);

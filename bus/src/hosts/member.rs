@@ -97,7 +97,8 @@ impl Member {
                 }
                 self.lose(lost, losses);
                 self.awaits = Awaits::Nothing;
-                let forgotten: Vec<Loss> = self.auvs.iter().filter(|(_, ticks)| **ticks > 0).map(forgotten).collect();
+                let forgotten: Vec<Loss> =
+                    self.auvs.iter().filter(|(_, ticks)| **ticks > 0).map(forgotten).collect();
                 self.lose(forgotten, losses);
             }
             (from_host::GOODBYE, _) => {

@@ -137,7 +137,11 @@ fn lay(config: &mut Config, key: &str, value: &Value) -> Result<(), NetworkError
             for (name, value) in table {
                 let inner = if key.is_empty() { name.clone() } else { format!("{key}/{name}") };
                 if let Err(error) = lay(config, &inner, value) {
-                    return if key.is_empty() { Err(error) } else { insert(config, key, &whole(table)).map_err(|_| error) };
+                    return if key.is_empty() {
+                        Err(error)
+                    } else {
+                        insert(config, key, &whole(table)).map_err(|_| error)
+                    };
                 }
             }
             Ok(())
@@ -211,7 +215,10 @@ mod tests {
             ("{ transport: { link: { tx: { lease: 'long' } } } }", "lease"),
         ] {
             let error = of_file(text).unwrap_err().to_string();
-            assert!(error.contains("zenoh.json5: this is no configuration") && error.contains(part), "{error}");
+            assert!(
+                error.contains("zenoh.json5: this is no configuration") && error.contains(part),
+                "{error}"
+            );
         }
         let error = Network::new(Some(Path::new("/no/such/file"))).unwrap_err().to_string();
         assert!(error.starts_with("/no/such/file: ") && error.contains("No such file"), "{error}");

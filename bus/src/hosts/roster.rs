@@ -178,7 +178,10 @@ mod tests {
     }
 
     fn refused(decision: Decision, part: &str) {
-        assert!(matches!(&decision, Decision::Refuse(reason) if reason.contains(part)), "{part}: {decision:?}");
+        assert!(
+            matches!(&decision, Decision::Refuse(reason) if reason.contains(part)),
+            "{part}: {decision:?}"
+        );
     }
 
     #[test]
@@ -196,9 +199,11 @@ mod tests {
     #[test]
     fn tokens_and_clocks_are_judged() {
         let candidate = Candidate { join: join(), challenge: challenge() };
-        let answer = Proof { host: "01".into(), proof: None, challenged_ns: 1_000_000_000, clock_ns: 4_000_000_000 };
+        let answer =
+            Proof { host: "01".into(), proof: None, challenged_ns: 1_000_000_000, clock_ns: 4_000_000_000 };
         // The round trip took 2 s: the host read its clock when the launcher's stood at 2 s, give or take one.
-        let judge = |terms: &Terms, answer: &Proof| terms.proven(&candidate, answer, 3_000_000_000, "run", false);
+        let judge =
+            |terms: &Terms, answer: &Proof| terms.proven(&candidate, answer, 3_000_000_000, "run", false);
         let Decision::Admit(welcome) = judge(&terms(), &answer) else { panic!("it is admitted") };
         assert_eq!((welcome.clock_ahead_s, welcome.clock_error_s, welcome.proof), (2.0, 1.0, None));
         let strict = Terms { clock_limit: Some(Duration::from_millis(500)), ..terms() };
@@ -208,7 +213,8 @@ mod tests {
 
         let secret = Terms { token: Some("sesame".into()), ..terms() };
         refused(judge(&secret, &answer), "shows no token");
-        let told = |token: &str| Proof { proof: Some(proof(token, Prover::Host, "02", "03")), ..answer.clone() };
+        let told =
+            |token: &str| Proof { proof: Some(proof(token, Prover::Host, "02", "03")), ..answer.clone() };
         refused(judge(&secret, &told("barley")), "another one");
         let Decision::Admit(welcome) = judge(&secret, &told("sesame")) else { panic!("it is admitted") };
         assert!(is_proof(&welcome.proof.unwrap(), "sesame", Prover::Launcher, "02", "03"));
@@ -217,7 +223,9 @@ mod tests {
     #[test]
     fn shares_are_in_proportion() {
         let auvs: Vec<AuvId> = (0..10).map(AuvId).collect();
-        let of = |slots: &[u32]| share_out(&auvs, slots).map(|shares| shares.iter().map(Vec::len).collect::<Vec<_>>());
+        let of = |slots: &[u32]| {
+            share_out(&auvs, slots).map(|shares| shares.iter().map(Vec::len).collect::<Vec<_>>())
+        };
         assert_eq!(of(&[10]), Ok(vec![10]));
         assert_eq!(of(&[10, 30]), Ok(vec![2, 8]));
         assert_eq!(of(&[5, 5]), Ok(vec![5, 5]));

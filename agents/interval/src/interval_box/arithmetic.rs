@@ -77,7 +77,8 @@ fn side_by_side<const N: usize>(
     other: &IntervalBox<N>,
     operation: impl Fn(Interval, Interval) -> Interval,
 ) -> IntervalBox<N> {
-    IntervalBox { sides: std::array::from_fn(|axis| operation(one.sides[axis], other.sides[axis])) }.or_empty()
+    IntervalBox { sides: std::array::from_fn(|axis| operation(one.sides[axis], other.sides[axis])) }
+        .or_empty()
 }
 
 impl<const N: usize> Add for IntervalBox<N> {
