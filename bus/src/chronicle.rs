@@ -20,17 +20,13 @@ pub struct Entry {
 
 /// The kinds of things that happen, in the order in which simultaneous ones of one AUV are told.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a box for every answer would cost more than the memory for a window"
-)]
 pub enum What {
     /// Where the AUV really is at one of its ticks.
     Truth(Truth),
     /// What it was told at that tick.
     Sensed(Sensed),
-    /// What it answered.
-    Acted(Acted),
+    /// What it answered. In a box, because most entries are traffic, and all are as large as the largest.
+    Acted(Box<Acted>),
     /// What crossed the water.
     Traffic(Traffic),
     /// The check failed.

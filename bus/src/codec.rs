@@ -94,6 +94,8 @@ pub fn encode_bare_into<T: Serialize>(message: &T, bytes: &mut Vec<u8>) -> Resul
 struct Appending<'a>(&'a mut Vec<u8>);
 
 impl Writer for Appending<'_> {
+    // Fields are a few bytes each, of known lengths: where that is seen, a field is one store and not a call.
+    #[inline]
     fn write(&mut self, bytes: &[u8]) -> Result<(), EncodeError> {
         self.0.extend_from_slice(bytes);
         Ok(())

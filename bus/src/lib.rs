@@ -4,6 +4,7 @@
 
 pub mod chronicle;
 pub mod codec;
+pub mod composite;
 #[cfg(feature = "zenoh")]
 pub mod hosts;
 #[cfg(feature = "iceoryx2")]
@@ -14,6 +15,8 @@ pub mod message;
 #[cfg(any(feature = "iceoryx2", feature = "zenoh"))]
 pub mod os;
 pub mod ping;
+#[cfg(feature = "zenoh")]
+pub mod protocol;
 #[cfg(feature = "record")]
 pub mod record;
 #[cfg(any(feature = "iceoryx2", feature = "zenoh"))]

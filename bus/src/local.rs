@@ -1,5 +1,7 @@
 //! The `local` transport: no processes, the minds in one program. The reference that every other transport must equal.
 
+use std::time::{Duration, Instant};
+
 use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, Mind};
 use crate::message::{Acted, Born, Sensed};
 
@@ -12,6 +14,7 @@ pub struct Local<M, F> {
     be_born: F,
     minds: Vec<Option<M>>,
     step: fn(&mut [Turn<'_, M>], &mut dyn FnMut()),
+    waited: Duration,
 }
 
 /// One mind's share of a window.
@@ -30,7 +33,7 @@ impl<M: Mind> Turn<'_, M> {
 impl<M: Mind, F: Fn(&Born) -> M> Local<M, F> {
     /// A fleet whose minds are made by `be_born` and think one after the other, in this thread.
     pub fn new(be_born: F) -> Self {
-        Self { be_born, minds: Vec::new(), step: one_by_one }
+        Self { be_born, minds: Vec::new(), step: one_by_one, waited: Duration::ZERO }
     }
 
     /// The same on all cores. A mind knows nothing of the others and answers have their order, so nothing else changes.
@@ -39,7 +42,7 @@ impl<M: Mind, F: Fn(&Born) -> M> Local<M, F> {
     where
         M: Send,
     {
-        Self { be_born, minds: Vec::new(), step: side_by_side }
+        Self { be_born, minds: Vec::new(), step: side_by_side, waited: Duration::ZERO }
     }
 }
 
@@ -91,9 +94,30 @@ impl<M: Mind, F: Fn(&Born) -> M> Fleet for Local<M, F> {
             };
             turns.push(Turn { mind, batch, acted: Vec::new() });
         }
-        (self.step)(&mut turns, meanwhile);
+        let mut since = Instant::now();
+        (self.step)(&mut turns, &mut || {
+            meanwhile();
+            since = Instant::now();
+        });
+        self.waited = since.elapsed();
         let acted = turns.into_iter().map(|turn| Batch { auv: turn.batch.auv, items: turn.acted }).collect();
         Ok(Answers { acted, losses: Vec::new() })
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
+    }
+
+    /// Minds in this program are waited for: they are late when the wall clock says so.
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        _: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        let answers = self.exchange(sensed, meanwhile)?;
+        sensed.clear();
+        Ok(answers)
     }
 
     fn end(&mut self) {}

@@ -4,6 +4,7 @@
 //! each of them has answered with as many [`Acted`], or has died. Slowness is waited for and changes nothing.
 
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
@@ -39,6 +40,14 @@ pub struct Answers {
     pub losses: Vec<Loss>,
 }
 
+impl Answers {
+    /// Puts what came from several places in the order of the AUVs.
+    pub(crate) fn sort(&mut self) {
+        self.acted.sort_by_key(|batch| batch.auv);
+        self.losses.sort_by_key(|loss| loss.auv);
+    }
+}
+
 /// The channel's end of a transport: all AUVs of a run.
 pub trait Fleet {
     /// Waits for every AUV to report in and tells each what it is. `born` is sorted by AUV. Those that die before they
@@ -56,6 +65,27 @@ pub trait Fleet {
     /// AUVs that were lost and have a place again, sorted: their births may follow, by [`born`](Self::born). Each is told once.
     fn vacancies(&mut self) -> Vec<AuvId> {
         Vec::new()
+    }
+
+    /// How long the last exchange waited for AUVs at work, `meanwhile` excluded; nothing where that is not known.
+    fn waited(&self) -> Duration {
+        Duration::ZERO
+    }
+
+    /// As [`exchange`](Self::exchange), for AUVs that may be late: waits until `deadline` at most, for those at work on earlier
+    /// batches as well, and brings back whatever is there, at most one batch of each. Batches of AUVs that are still at work are
+    /// not sent: they stay in `sensed` and can grow, each AUV's in one batch, until a later exchange takes them.
+    ///
+    /// # Errors
+    /// Silence is none here. [`FleetError::NoDeadlines`] from transports that can only wait.
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        let (_, _, _) = (sensed, deadline, meanwhile);
+        Err(FleetError::NoDeadlines)
     }
 
     /// Tells every AUV that the run is over.
@@ -95,8 +125,6 @@ pub enum ToAuv {
 /// From one AUV to the channel, as it is written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum FromAuv {
-    /// The process is up.
-    Hello,
     /// The answers to one batch.
     Acted(Vec<Acted>),
 }
@@ -152,6 +180,9 @@ pub enum FleetError {
         /// For how long.
         limit_s: u64,
     },
+    /// Somebody asked for deadlines of a transport that waits for every answer.
+    #[error("this transport waits for every answer, so it cannot run freely")]
+    NoDeadlines,
     /// The launcher asked to stop.
     #[error("interrupted")]
     Interrupted,

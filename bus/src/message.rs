@@ -23,6 +23,7 @@ impl fmt::Display for AuvId {
 
 /// A closed interval of reals as it crosses the bus: `lower <= upper`, both finite unless a field says otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Bounds {
     /// Least value.
     pub lower: f64,
@@ -479,6 +480,7 @@ pub enum Sense {
 
 /// What an AUV answers to one [`Sensed`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Acted {
     /// Index of the tick that it answers.
     pub tick: u64,
@@ -492,6 +494,7 @@ pub struct Acted {
 
 /// A desired velocity through the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Setpoint {
     /// x, y, z in m/s.
     pub velocity_m_s: [f64; 3],
@@ -499,10 +502,12 @@ pub struct Setpoint {
 
 /// A ping booked for one local time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlannedPing {
     /// Local time of the emission.
     pub at: LocalTime,
     /// The modem holds the ping back when it heard something within so many local nanoseconds before; zero to emit anyway.
+    #[serde(default)]
     pub listen_ns: i64,
     /// The bytes to emit: the AUV's prediction for that time.
     pub frame: Frame,
@@ -510,6 +515,7 @@ pub struct PlannedPing {
 
 /// What an AUV believes at a tick, all of it checked against the truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Report {
     /// Encloses the position at the tick, in metres.
     pub position_m: BoundsBox,
@@ -518,23 +524,36 @@ pub struct Report {
     /// Encloses position and clock over all of `[s_{k-1}, s_k]`.
     pub slice: Slice,
     /// Why the enclosure emptied at this tick, if it did.
+    #[serde(default)]
     pub emptied: Option<Emptied>,
     /// How many neighbours the controller heeds.
+    #[serde(default)]
     pub neighbours: u16,
     /// Measurements that made the enclosure smaller since the last tick.
+    #[serde(default)]
     pub contractions: u16,
     /// Pings told at this tick that the estimator took for outliers, or dropped.
+    #[serde(default)]
     pub rejected: u16,
     /// Where the neighbours are whom it follows, sorted by AUV; none unless its [orders](Orders::relative) say so.
+    #[serde(default)]
     pub around: Vec<Around>,
     /// Separate parts of the set; one unless the AUV does not know which of several places it is at.
+    #[serde(default = "one_component")]
     pub components: u16,
     /// What a Kalman filter believes; its boxes reach three standard deviations to either side. Nobody promises anything then.
+    #[serde(default)]
     pub gaussian: Option<Gaussian>,
+}
+
+/// Of a report that says nothing else.
+fn one_component() -> u16 {
+    1
 }
 
 /// A neighbour as it is seen from an AUV.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Around {
     /// Who.
     pub auv: AuvId,
@@ -544,6 +563,7 @@ pub struct Around {
 
 /// A Gaussian over position and clock: east, north, up in metres, and true minus local time in seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Gaussian {
     /// The mean.
     pub mean: [f64; 4],
@@ -553,6 +573,7 @@ pub struct Gaussian {
 
 /// An enclosure over the whole interval between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Slice {
     /// Encloses every position in between, in metres.
     pub position_m: BoundsBox,
@@ -562,6 +583,7 @@ pub struct Slice {
 
 /// An enclosure that became empty: a model or a measurement broke its bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Emptied {
     /// Local time of the measurement that left nothing.
     pub stamp: LocalTime,

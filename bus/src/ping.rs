@@ -86,6 +86,11 @@ impl fmt::Debug for Frame {
 
 impl Serialize for Frame {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if serializer.is_human_readable() {
+            let digits = self.bytes().iter().flat_map(|byte| [byte >> 4, byte & 15]);
+            let text: String = digits.filter_map(|digit| char::from_digit(digit.into(), 16)).collect();
+            return serializer.serialize_str(&text);
+        }
         serializer.serialize_bytes(self.bytes())
     }
 }
@@ -97,12 +102,26 @@ impl<'de> Deserialize<'de> for Frame {
             type Value = Frame;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "at most {FRAME_BYTES_MAX} bytes")
+                write!(f, "at most {FRAME_BYTES_MAX} bytes, in text two hexadecimal digits each")
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Frame, E> {
+                let wrong = || E::invalid_value(de::Unexpected::Str(text), &self);
+                let mut bytes = Vec::with_capacity(FRAME_BYTES_MAX);
+                for pair in text.as_bytes().chunks(2).take(FRAME_BYTES_MAX + 1) {
+                    let &[high, low] = pair else { return Err(wrong()) };
+                    let digit = |of: u8| char::from(of).to_digit(16).ok_or_else(wrong);
+                    bytes.push((digit(high)? << 4 | digit(low)?) as u8);
+                }
+                self.visit_bytes(&bytes)
             }
 
             fn visit_bytes<E: de::Error>(self, bytes: &[u8]) -> Result<Frame, E> {
                 Frame::new(bytes).ok_or_else(|| E::invalid_length(bytes.len(), &self))
             }
+        }
+        if deserializer.is_human_readable() {
+            return deserializer.deserialize_str(Bytes);
         }
         deserializer.deserialize_bytes(Bytes)
     }
@@ -227,14 +246,16 @@ impl Ping {
         if kind(bytes) != INTERVALS {
             return Err(FrameError::Kind(kind(bytes)));
         }
-        let earliest = signed(&bytes[4..10]) as f64 * power_of_two(TIME_UNIT_EXPONENT);
+        let earliest = emission_s(bytes);
         let width = f64::from(bytes[10]) * power_of_two(TIME_UNIT_EXPONENT + i32::from(bytes[0] & 31));
+        let side = |axis: usize| (i24(bytes, 12 + 3 * axis), bytes[21 + axis]);
+        let speed = |axis: usize| (i32::from(bytes[25 + axis] as i8), bytes[28 + axis]);
         Ok(Self {
             sender: AuvId(u32::from(u16::from_le_bytes([bytes[1], bytes[2]]))),
             sequence: bytes[3],
             emission_s: Bounds::new(earliest, earliest + width),
-            position_m: Block::read(&bytes[11..24], 3),
-            velocity_m_s: Block::read(&bytes[24..31], 1),
+            position_m: block(bytes[11], [side(0), side(1), side(2)]),
+            velocity_m_s: block(bytes[24], [speed(0), speed(1), speed(2)]),
         })
     }
 }
@@ -307,25 +328,32 @@ impl Block {
         }
         bytes.extend(self.width);
     }
-
-    fn read(bytes: &[u8], lower_bytes: usize) -> BoundsBox {
-        // A hostile exponent is brought into the range that an honest encoder uses.
-        let exponent = i32::from(bytes[0] as i8).clamp(*EXPONENTS.start(), *EXPONENTS.end());
-        let unit = power_of_two(exponent);
-        std::array::from_fn(|axis| {
-            let at = 1 + axis * lower_bytes;
-            let lower = signed(&bytes[at..at + lower_bytes]);
-            let width = i64::from(bytes[1 + 3 * lower_bytes + axis]);
-            Bounds::new(lower as f64 * unit, (lower + width) as f64 * unit)
-        })
-    }
 }
 
-/// Little-endian two's complement of up to eight bytes.
-fn signed(bytes: &[u8]) -> i64 {
-    let mut wide = [0; 8];
-    wide[8 - bytes.len()..].copy_from_slice(bytes);
-    i64::from_le_bytes(wide) >> (64 - 8 * bytes.len())
+/// The true time of emission at the usual place, in seconds; of intervals, its earliest.
+fn emission_s(bytes: &[u8; FRAME_BYTES]) -> f64 {
+    let [_, _, _, _, a, b, c, d, e, f, ..] = *bytes;
+    let units = i64::from_le_bytes([0, 0, a, b, c, d, e, f]) >> 16;
+    units as f64 * power_of_two(TIME_UNIT_EXPONENT)
+}
+
+/// The three bytes from `at` on as a number.
+#[inline(always)]
+fn i24(bytes: &[u8; FRAME_BYTES], at: usize) -> i32 {
+    i32::from_le_bytes([0, bytes[at], bytes[at + 1], bytes[at + 2]]) >> 8
+}
+
+/// The intervals of a block: its exponent, and the lower bound and width of each in its unit.
+#[inline(always)]
+fn block(exponent: u8, sides: [(i32, u8); 3]) -> BoundsBox {
+    // A hostile exponent is brought into the range that an honest encoder uses.
+    let exponent = i32::from(exponent as i8).clamp(*EXPONENTS.start(), *EXPONENTS.end());
+    let unit = power_of_two(exponent);
+    let [x, y, z] = sides;
+    let side = |(lower, width): (i32, u8)| {
+        Bounds::new(f64::from(lower) * unit, f64::from(lower + i32::from(width)) * unit)
+    };
+    [side(x), side(y), side(z)]
 }
 
 /// 2^`exponent` exactly, for exponents of normal numbers.

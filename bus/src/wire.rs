@@ -31,11 +31,13 @@ pub(crate) const NOT_A_MESSAGE: &str = "sent bytes that are not a message";
 
 /// Reads the answers to `ticks` ticks, or says why their sender is lost.
 pub(crate) fn read_acted(message: &[u8], ticks: usize) -> Result<Vec<Acted>, String> {
-    match codec::decode(message) {
-        Ok(FromAuv::Acted(acted)) if acted.len() == ticks => Ok(acted),
-        Ok(FromAuv::Acted(acted)) => Err(format!("answered {} of {ticks} ticks", acted.len())),
-        Ok(FromAuv::Hello) | Err(_) => Err(NOT_A_MESSAGE.to_owned()),
-    }
+    codec::decode(message).map_err(|_| NOT_A_MESSAGE.to_owned()).and_then(|message| all_ticks(message, ticks))
+}
+
+/// The answers, if they are as many as the ticks.
+pub(crate) fn all_ticks(message: FromAuv, ticks: usize) -> Result<Vec<Acted>, String> {
+    let FromAuv::Acted(acted) = message;
+    if acted.len() == ticks { Ok(acted) } else { Err(format!("answered {} of {ticks} ticks", acted.len())) }
 }
 
 #[cfg(test)]
@@ -59,7 +61,7 @@ mod tests {
         let encode = |message: &FromAuv| encode(message).unwrap();
         assert_eq!(read_acted(&encode(&FromAuv::Acted(Vec::new())), 0), Ok(Vec::new()));
         assert_eq!(read_acted(&encode(&FromAuv::Acted(Vec::new())), 2), Err("answered 0 of 2 ticks".into()));
-        for bytes in [&b""[..], b"garbage", &[0xff; 64], &encode(&FromAuv::Hello)] {
+        for bytes in [&b""[..], b"garbage", &[0xff; 64], &codec::encode(&7u32).unwrap()] {
             assert_eq!(read_acted(bytes, 1), Err(NOT_A_MESSAGE.into()));
         }
     }

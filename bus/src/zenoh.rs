@@ -13,6 +13,9 @@ use std::time::Duration;
 
 use zenoh::{Config, Session, Wait};
 
+#[cfg(test)]
+pub(crate) use frame::{Kind, Up, write_down};
+
 pub use fleet::{ZenohFleet, ZenohInterruptHandle};
 pub use link::ZenohLink;
 

@@ -80,6 +80,7 @@ fn example(key: &str) -> String {
         "measures" => "\"range\"",
         "exchanged" => "true",
         "remembered" => "16",
+        "command" => "[\"python3\", \"agent.py\"]",
         "controller" => "{ name = \"reynolds\" }",
         "sabotage" => "\"lying-ping\"",
         "speed_max_m_s" => "2.5",

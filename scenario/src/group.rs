@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use toml::de::DeValue;
 
 use crate::body::Catalogues;
+use crate::command::command;
 use crate::environment::norm;
 use crate::estimating::estimator;
 use crate::model::{AuvSabotage, Environment, Estimator, Group, Level, Modem};
@@ -56,6 +57,7 @@ pub(crate) fn group(
     let controller = controller(&table, &Surroundings { kind: kind.as_ref(), environment, group_names });
     let start = start(&table, environment, kind.as_ref(), controller.as_ref(), count);
     let sabotage = table.choice("sabotage", SABOTAGES, None);
+    let command = command(&table);
     if let (Some(estimator), Some(modem)) = (&estimator, &modem) {
         remembers_a_packet(&table, environment, estimator, modem);
     }
@@ -80,6 +82,7 @@ pub(crate) fn group(
             relative: relative?,
             controller: controller?,
             sabotage: sabotage?,
+            command: command?,
         })
     };
     let written = name.unwrap_or_default().to_string();

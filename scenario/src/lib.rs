@@ -107,6 +107,7 @@
 //! | `relative.exchanged` | | `true` | whether it believes the velocities that pings tell; else a neighbour may do all that its bounds allow |
 //! | `relative.remembered` | | 16 | so many of a neighbour's last pings count together |
 //! | `controller` | | `"hold"` | name, or table with `name`; see below |
+//! | `command` | | | each AUV of the group is a process started so, `["python3", "agent.py"]`, in the folder of the scenario file; it is told the controller, the estimator and the access, and does with them what it likes |
 //! | `sabotage` | | | a test of the checker: `"halved-clock"`, `"lying-ping"` or `"empty-set"` breaks a promise |
 //! | **`[sensors.NAME]`, `[group.sensors]`** | | | sensors of one's own |
 //! | `like` | | `"nominal"` | preset or other sensors that fill in what is not said; defaults below are those of `"nominal"` |
@@ -182,6 +183,7 @@
 //! | `shifted_truth` | s | | `{ auv = 0, at_s = 5 }` moves that AUV's truth by a metre at that time |
 
 mod body;
+mod command;
 mod current;
 mod diagnostics;
 mod document;

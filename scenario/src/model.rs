@@ -315,6 +315,8 @@ pub struct Group {
     pub controller: Controller,
     /// A promise to break: a test of the checker.
     pub sabotage: Option<AuvSabotage>,
+    /// Program and arguments that start each of its AUVs, if they are not Shoal's own.
+    pub command: Option<Vec<String>>,
 }
 
 /// What a body can do, and what the water does to it.

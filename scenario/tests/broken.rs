@@ -75,4 +75,5 @@ broken! {
     modem_unknown: "modem-unknown",
     access_impossible: "access-impossible",
     bearing_impossible: "bearing-impossible",
+    command_impossible: "command-impossible",
 }

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
+use shoal_bus::composite::{Composite, Part};
 use shoal_bus::lockstep::{Fleet, FleetError};
 use shoal_bus::message::AuvId;
 use shoal_bus::run_dir::RunDir;
@@ -69,32 +70,70 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
         None => None,
     };
     let seats = Seat::of_run(&order, &scenario);
-    let launched = match order.bus {
-        Bus::Local => return Err(Failure::usage("the local bus has no channel process")),
-        Bus::Iceoryx2 => {
-            let processes = in_wake_order(&seats, &channel);
-            let mut fleet = SharedMemoryFleet::create(run, &processes).map_err(Failure::failed)?;
-            let interrupt = fleet.interrupt_handle();
-            let launched = Launched::wait(seats, lines, orphaned, move || interrupt.interrupt())?;
-            fleet.attach_processes(&launched.processes()).map_err(Failure::failed)?;
-            (Box::new(fleet) as Box<dyn Fleet>, launched)
-        }
-        Bus::Zenoh => {
-            let endpoint = order.endpoint.clone().unwrap_or_else(|| ZenohFleet::local_endpoint(run));
-            let auvs: Vec<AuvId> = channel.born().iter().map(|born| born.auv).collect();
-            let mut fleet = ZenohFleet::create(&endpoint, run.id(), &auvs).map_err(Failure::failed)?;
-            let interrupt = fleet.interrupt_handle();
-            let launched = Launched::wait(seats, lines, orphaned, move || interrupt.interrupt())?;
-            fleet.attach_processes(&launched.processes()).map_err(Failure::failed)?;
-            (Box::new(fleet) as Box<dyn Fleet>, launched)
-        }
-    };
-    let (mut fleet, launched) = launched;
+    let (mut fleet, launched) = fleet(&order, &channel, seats, run, lines, orphaned)?;
     let outcome = carry_out(&order, &scenario, &mut channel, fleet.as_mut(), recorder, &launched, run);
     fleet.end();
     drop(fleet);
     say(&outcome?);
     Ok(())
+}
+
+/// All AUVs of the run, once their processes have been started: the user's programs always speak zenoh.
+fn fleet(
+    order: &Order,
+    channel: &Channel,
+    seats: Vec<Seat>,
+    run: &RunDir,
+    lines: io::StdinLock<'static>,
+    orphaned: &Arc<AtomicBool>,
+) -> Result<(Box<dyn Fleet>, Launched), Failure> {
+    let speaks_zenoh = |seat: &Seat| order.bus == Bus::Zenoh || seat.command.is_some();
+    let (by_zenoh, in_memory): (Vec<Seat>, Vec<Seat>) = seats.iter().cloned().partition(speaks_zenoh);
+    let ids = |seats: &[Seat]| -> Vec<AuvId> { seats.iter().flat_map(Seat::ids).collect() };
+    let (over_network, in_memory_ids) = (ids(&by_zenoh), ids(&in_memory));
+
+    let mut shared_memory = match in_memory.as_slice() {
+        [] => None,
+        seats => {
+            let processes = in_wake_order(seats, channel);
+            Some(SharedMemoryFleet::create(run, &processes).map_err(Failure::failed)?)
+        }
+    };
+    let endpoint = order.endpoint.clone().unwrap_or_else(|| ZenohFleet::local_endpoint(run));
+    let mut zenoh = match over_network.as_slice() {
+        [] => None,
+        auvs => Some(ZenohFleet::create(&endpoint, run.id(), auvs).map_err(Failure::failed)?),
+    };
+    let interrupts = (
+        shared_memory.as_ref().map(SharedMemoryFleet::interrupt_handle),
+        zenoh.as_ref().map(ZenohFleet::interrupt_handle),
+    );
+    let interrupt = move || {
+        interrupts.0.iter().for_each(|handle| handle.interrupt());
+        interrupts.1.iter().for_each(|handle| handle.interrupt());
+    };
+    let launched = Launched::wait(seats, lines, orphaned, interrupt)?;
+    let processes = launched.processes();
+    let of = |auvs: &[AuvId]| -> Vec<(AuvId, u32)> {
+        processes.iter().copied().filter(|(auv, _)| auvs.binary_search(auv).is_ok()).collect()
+    };
+    if let Some(fleet) = &mut shared_memory {
+        fleet.attach_processes(&of(&in_memory_ids)).map_err(Failure::failed)?;
+    }
+    if let Some(fleet) = &mut zenoh {
+        fleet.attach_processes(&of(&over_network)).map_err(Failure::failed)?;
+    }
+    let zenoh = zenoh.map(|fleet| Part { auvs: over_network, fleet: Box::new(fleet) as Box<dyn Fleet> });
+    let shared_memory =
+        shared_memory.map(|fleet| Part { auvs: in_memory_ids, fleet: Box::new(fleet) as Box<dyn Fleet> });
+    let fleet: Box<dyn Fleet> = match (zenoh, shared_memory) {
+        (Some(part), None) | (None, Some(part)) => part.fleet,
+        (zenoh, shared_memory) => {
+            let parts = zenoh.into_iter().chain(shared_memory).collect();
+            Box::new(Composite::new(parts).map_err(Failure::failed)?)
+        }
+    };
+    Ok((fleet, launched))
 }
 
 /// Births, windows, and the summing up.

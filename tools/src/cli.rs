@@ -81,6 +81,9 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// A program of the user's that is one AUV; started by `run`
+    #[command(hide = true)]
+    Agent(AgentArgs),
     /// One AUV, or several; started by `run`
     #[command(hide = true)]
     Auv(AuvArgs),
@@ -223,6 +226,16 @@ pub struct TapArgs {
     /// Wait so many seconds for a run to begin
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
     pub wait: f64,
+}
+
+#[derive(Debug, Args)]
+pub struct AgentArgs {
+    /// Process that started it, with which it ends
+    #[arg(long)]
+    pub launcher: u32,
+    /// Program and arguments
+    #[arg(last = true, required = true)]
+    pub command: Vec<String>,
 }
 
 #[derive(Debug, Args)]

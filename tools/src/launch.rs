@@ -25,6 +25,8 @@ pub enum ToChannel {
 pub struct Order {
     /// What errors call the scenario.
     pub source_name: String,
+    /// Where relative paths in it lead from.
+    pub folder: PathBuf,
     /// The scenario's text.
     pub text: String,
     /// `--seed`.

@@ -2,6 +2,7 @@
 //!
 //! This executable is also every process of a run: `shoal run` starts `shoal channel` and one `shoal auv` per vehicle.
 
+mod agent_process;
 mod auv_process;
 mod channel_process;
 mod cli;
@@ -57,6 +58,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
         Command::Channel { run } => {
             RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::zenoh::RUNTIME_ENV;
 
+use crate::agent_process;
 use crate::cli::Bus;
 use crate::failure::{Failure, While};
 use crate::launch::{FromChannel, Order, ToChannel};
@@ -128,19 +129,26 @@ fn write_line(input: &Mutex<ChildStdin>, line: &str) {
 #[derive(Default)]
 pub struct Swarm {
     children: Vec<(Seat, Child)>,
-    log: Option<PathBuf>,
+    run: Option<RunDir>,
 }
 
 impl Swarm {
     /// Starts a process for each seat.
     pub fn start(&mut self, run: &RunDir, order: &Order, seats: Vec<Seat>) -> Result<(), Failure> {
         let exe = executable()?;
-        let log = run.path().join("auvs.log");
+        let log = common_log(run);
         let launcher = std::process::id().to_string();
         let log_file = open_log(&log).while_doing("open a log for the AUVs")?;
         let count = seats.len();
         for seat in seats {
             let mut command = command(&exe);
+            if let Some(of_user) = &seat.command {
+                agent_process::describe(&mut command, of_user, run, order, seat.auvs.start);
+                let log = open_log(&own_log(run, &seat)).while_doing("open a log for an AUV")?;
+                let stdout = log.try_clone().while_doing("open a log for an AUV")?;
+                self.children.push(seat.spawn(&mut command, stdout.into(), log, count)?);
+                continue;
+            }
             let auvs = format!("{}..{}", seat.auvs.start, seat.auvs.end);
             command.arg("auv").arg("--run").arg(run.path()).args(["--auvs", &auvs]);
             command.args(["--bus", order.bus.name(), "--launcher", &launcher]);
@@ -151,15 +159,9 @@ impl Swarm {
                 command.env(RUNTIME_ENV.0, RUNTIME_ENV.1);
             }
             let stderr = log_file.try_clone().while_doing("share the AUVs' log")?;
-            let child = command
-                .stdin(Stdio::null())
-                .stdout(Stdio::null())
-                .stderr(stderr)
-                .spawn()
-                .map_err(|error| too_many(&seat, count, &error))?;
-            self.children.push((seat, child));
+            self.children.push(seat.spawn(&mut command, Stdio::null(), stderr, count)?);
         }
-        self.log = Some(log);
+        self.run = Some(run.clone());
         Ok(())
     }
 
@@ -173,16 +175,24 @@ impl Swarm {
         let deadline = Instant::now() + patience;
         let statuses: Vec<_> =
             self.children.iter_mut().map(|(seat, child)| (&*seat, end_by(child, deadline))).collect();
-        let log = self.log.as_ref().and_then(|log| std::fs::read_to_string(log).ok()).unwrap_or_default();
+        let read = |path: Option<PathBuf>| path.and_then(|log| std::fs::read(log).ok()).unwrap_or_default();
+        let log = read(self.run.as_ref().map(common_log));
+        let log = String::from_utf8_lossy(&log);
         let ending = |(seat, status): (&Seat, Option<ExitStatus>)| {
             let was_killed = status.is_none();
             let status = status.map_or_else(|| KILLED_AT_THE_END.to_owned(), describe);
-            let start = format!("{}: ", seat.name());
-            let reason = match log.lines().rev().find_map(|line| line.strip_prefix(&start)) {
-                Some(words) => format!("{status}: {words}"),
-                None => status,
+            let own = match seat.command {
+                Some(_) => read(self.run.as_ref().map(|run| own_log(run, seat))),
+                None => Vec::new(),
             };
-            Ending { seat: seat.clone(), reason, was_killed }
+            let own = String::from_utf8_lossy(&own);
+            let start = format!("{}: ", seat.name());
+            let words = match seat.command {
+                Some(_) => own.lines().rev().map(str::trim).find(|line| !line.is_empty()),
+                None => log.lines().rev().find_map(|line| line.strip_prefix(&start)),
+            };
+            let reason = words.map_or_else(|| status.clone(), |words| format!("{status}: {words}"));
+            Ending { seat: seat.clone(), reason, was_killed, wrote: last_lines(&own) }
         };
         statuses.into_iter().map(ending).collect()
     }
@@ -196,6 +206,8 @@ pub struct Ending {
     pub reason: String,
     /// Whether it did not end when it was told to.
     pub was_killed: bool,
+    /// The last that a program of the user's wrote.
+    pub wrote: String,
 }
 
 impl Drop for Swarm {
@@ -208,6 +220,38 @@ impl Drop for Swarm {
             let _reaped = child.wait();
         }
     }
+}
+
+impl Seat {
+    /// Starts its process.
+    fn spawn(
+        self,
+        command: &mut Command,
+        stdout: Stdio,
+        stderr: File,
+        count: usize,
+    ) -> Result<(Self, Child), Failure> {
+        let child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn();
+        let child = child.map_err(|error| too_many(&self, count, &error))?;
+        Ok((self, child))
+    }
+}
+
+/// What Shoal's own AUVs write.
+fn common_log(run: &RunDir) -> PathBuf {
+    run.path().join("auvs.log")
+}
+
+/// What a program of the user's writes.
+fn own_log(run: &RunDir, seat: &Seat) -> PathBuf {
+    run.path().join(format!("auv-{}.log", seat.auvs.start))
+}
+
+/// The end of a text, as much of it as one screen shows.
+fn last_lines(text: &str) -> String {
+    const LINES: usize = 30;
+    let lines: Vec<&str> = text.lines().collect();
+    lines[lines.len().saturating_sub(LINES)..].join("\n")
 }
 
 fn open_log(path: &PathBuf) -> std::io::Result<File> {

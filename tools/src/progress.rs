@@ -37,6 +37,11 @@ impl Bar {
         self.0.suspend(|| eprintln!("warning: {note}"));
     }
 
+    /// What somebody else said.
+    pub fn log(&self, text: &str) {
+        self.0.suspend(|| eprintln!("{text}"));
+    }
+
     /// The run is over.
     pub fn finish(&self) {
         self.0.finish_and_clear();

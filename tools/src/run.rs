@@ -13,11 +13,13 @@ use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
 use shoal_scenario::{OnCrash, Scenario};
 
+use crate::agent_process::check_commands;
 use crate::cli::{Bus, RunArgs};
 use crate::drive::{Ending, Observer, Plan, drive};
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
 use crate::launch::{Done, FromChannel, Order};
+use crate::limits;
 use crate::memory;
 use crate::observers::{Progress, Recorder, Tapped};
 use crate::processes::{ChannelProcess, Ending as ProcessEnding, FAREWELL, HASTY_FAREWELL, Swarm};
@@ -25,12 +27,25 @@ use crate::progress::Bar;
 use crate::seat::Seat;
 use crate::summary_text;
 
+/// The words of so many of the user's programs are shown.
+const LOGS_SHOWN: usize = 8;
+
 /// Runs a scenario and prints what it amounts to.
 pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let order = Order::read(args)?;
     let scenario = order.scenario()?;
     for warning in scenario.warnings() {
         eprintln!("warning: {warning}");
+    }
+    check_commands(&scenario, &order)?;
+    if let (Bus::Local, Some(group)) = (order.bus, scenario.groups.iter().find(|of| of.command.is_some())) {
+        return Err(Failure::usage(format!(
+            "the AUVs of group `{}` are programs of their own, and the local bus has no processes: use `--bus iceoryx2` or `--bus zenoh`",
+            group.name
+        )));
+    }
+    if order.bus != Bus::Local {
+        limits::check(Seat::of_run(&order, &scenario).len(), order.bus)?;
     }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;
@@ -115,6 +130,9 @@ fn in_processes(
                             reason => format!("{reason}; {ending}"),
                         };
                     }
+                }
+                for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
+                    bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
                 }
                 for ending in endings.iter().filter(|ending| ending.was_killed) {
                     let lost = &done.summary.agents.lost;

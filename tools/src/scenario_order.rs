@@ -1,11 +1,12 @@
 //! From names, files and flags to a scenario.
 
 use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
 
-use shoal_scenario::{Overrides, Scenario, load, parse};
+use shoal_scenario::{Overrides, Scenario, library, load, parse};
 
 use crate::cli::{Bus, Changes, RunArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, While};
 use crate::launch::Order;
 use crate::set::Setting;
 
@@ -20,10 +21,12 @@ impl Order {
                 "--auvs-per-process is for AUVs in processes: add `--bus iceoryx2` or `--bus zenoh`, or leave it out",
             ));
         }
+        let folder = folder_of(&args.scenario).while_doing("find the scenario's folder")?;
         let (source_name, text) = load(&args.scenario).map_err(Failure::usage)?;
         let (source_name, text) = with_settings(&source_name, &text, &args.set)?;
         Ok(Self {
             source_name,
+            folder,
             text,
             seed: args.seed,
             changes: args.changes.clone(),
@@ -39,6 +42,15 @@ impl Order {
     pub fn scenario(&self) -> Result<Scenario, Failure> {
         scenario(&self.source_name, &self.text, self.seed, &self.changes)
     }
+}
+
+/// The folder of a scenario file; for a scenario of the library, the present one.
+fn folder_of(name_or_path: &str) -> std::io::Result<PathBuf> {
+    let path = Path::new(name_or_path);
+    if path.exists() && !library().iter().any(|entry| entry.name == name_or_path) {
+        return Ok(path.canonicalize()?.parent().map_or_else(PathBuf::new, Path::to_owned));
+    }
+    std::env::current_dir()
 }
 
 /// The name and the text of a scenario after `--set`: errors will point into this text.

@@ -12,14 +12,32 @@ use crate::launch::Order;
 pub struct Seat {
     /// Ids of those that it carries; never empty.
     pub auvs: Range<u32>,
+    /// The program of the user's that its only AUV is; `None` for Shoal's own.
+    pub command: Option<Vec<String>>,
 }
 
 impl Seat {
     /// The seats of a run, in the order of their AUVs: every AUV has one.
     pub fn of_run(order: &Order, scenario: &Scenario) -> Vec<Self> {
-        let (count, each) = (scenario.auv_count(), order.auvs_per_process.get());
-        let seat = |first: u32| Self { auvs: first..count.min(first.saturating_add(each)) };
-        (0..count).step_by(each as usize).map(seat).collect()
+        let each = order.auvs_per_process.get();
+        let mut seats: Vec<Self> = Vec::new();
+        let mut first = 0;
+        for group in &scenario.groups {
+            let end = first + group.count;
+            for auv in first..end {
+                match seats.last_mut() {
+                    // Groups share processes, but never with a program of the user's.
+                    Some(Self { auvs, command: None })
+                        if group.command.is_none() && auvs.len() < each as usize =>
+                    {
+                        auvs.end = auv + 1;
+                    }
+                    _ => seats.push(Self { auvs: auv..auv + 1, command: group.command.clone() }),
+                }
+            }
+            first = end;
+        }
+        seats
     }
 
     /// Their ids.

@@ -15,7 +15,6 @@
 //! | `current.rs` | the current, as a Doppler velocity log sees it |
 //! | `travel.rs` | how it travels from tick to tick, by log and attitude |
 //! | `odometry.rs` | what it did from any remembered moment until now |
-//! | `history.rs` | the tube that is remembered |
 //! | `offline/` | all trajectories of a run at once, from its record |
 //! | `controller/` | hold, circle, waypoints, reynolds |
 //! | `neighbours.rs` | who is around |
@@ -38,7 +37,6 @@ pub mod current;
 pub mod dead_reckoning;
 pub mod ekf;
 pub mod estimator;
-mod history;
 pub mod hypotheses;
 pub mod medium_access;
 pub mod modem;

@@ -4,19 +4,26 @@
 //! caught in between under two sloping lines from either end; the integral of that roof is exact and much smaller than that of
 //! the highest velocity.
 
+mod passage;
+
 use shoal_bus::message::{BodyBounds, ClockBounds};
 use shoal_interval::{Interval, IntervalBox};
 
 use crate::bounds::interval_box;
 
+pub use self::passage::Passage;
+
 /// What is certain about the own motion and clock.
 #[derive(Clone, Debug)]
 pub struct Motion {
     speed_m_s: Interval,
-    acceleration_m_s2: f64,
+    /// Change of velocity per local second, at most, in m/s².
+    slope: f64,
     /// The current anywhere.
     current_m_s: IntervalBox<3>,
     disturbance_m_s: IntervalBox<3>,
+    /// Any velocity over ground, in m/s.
+    ground_m_s: IntervalBox<3>,
     /// `dt/ds - 1`: true seconds gained per local second.
     gain: Interval,
     /// Bound of `dt/ds`.
@@ -57,13 +64,18 @@ impl Motion {
         let drift = Interval::centred(0.0, clock.drift);
         // 1 / (1 + n) - 1 for |n| <= drift.
         let gain = one / (one + drift) - one;
+        let fastest = (one + gain).upper();
+        let speed_m_s = Interval::centred(0.0, body.speed_m_s);
+        let current_m_s = interval_box(&body.current_m_s);
+        let disturbance_m_s = interval_box(&body.disturbance_m_s);
         Self {
-            speed_m_s: Interval::centred(0.0, body.speed_m_s),
-            acceleration_m_s2: body.acceleration_m_s2,
-            current_m_s: interval_box(&body.current_m_s),
-            disturbance_m_s: interval_box(&body.disturbance_m_s),
+            speed_m_s,
+            slope: (body.acceleration_m_s2 * fastest).next_up(),
+            current_m_s,
+            disturbance_m_s,
+            ground_m_s: IntervalBox::from([speed_m_s; 3]) + (current_m_s + disturbance_m_s),
             gain,
-            fastest: (one + gain).upper(),
+            fastest,
             stamp_s: clock.stamp_ns as f64 * 1e-9,
         }
     }
@@ -75,7 +87,7 @@ impl Motion {
 
     /// The velocities through the water that are possible `elapsed_s` local seconds from a moment with velocity `known_m_s`.
     pub fn velocity_after(&self, known_m_s: &IntervalBox<3>, elapsed_s: f64) -> IntervalBox<3> {
-        known_m_s.inflate(self.slope() * self.longest(elapsed_s)).intersection(&self.any_velocity())
+        known_m_s.inflate(self.slope * self.longest(elapsed_s)).intersection(&self.any_velocity())
     }
 
     /// The current anywhere, in m/s.
@@ -95,139 +107,32 @@ impl Motion {
 
     /// Any displacement over ground within `elapsed_s` local seconds, forward or backward, in metres.
     pub fn anywhere_within(&self, elapsed_s: f64) -> IntervalBox<3> {
-        let ground_m_s = self.over_ground(&self.any_velocity(), &self.current_m_s);
-        let either_way = Interval::centred(0.0, self.longest(elapsed_s) * self.fastest);
-        IntervalBox::from(ground_m_s.sides().map(|side| side * either_way))
+        self.ground_m_s * Interval::centred(0.0, self.longest(elapsed_s) * self.fastest)
     }
 
     /// Change of true minus local time within `elapsed_s` local seconds, in seconds.
     pub fn offset_gain(&self, elapsed_s: f64) -> Interval {
-        self.gain * self.around(elapsed_s)
+        self.gain * around(elapsed_s, self.stamp_s)
+    }
+
+    /// What bounds the motion along `stretch`, for many questions about it.
+    pub fn along(&self, stretch: &Stretch) -> Passage {
+        Passage::new(self, stretch)
     }
 
     /// What can have happened from `from_s` to `to_s` local seconds after the beginning of `stretch`.
     pub fn over(&self, stretch: &Stretch, from_s: f64, to_s: f64) -> Moved {
-        let elapsed_s = self.around(to_s - from_s);
-        let so_far_s = Interval::ZERO.hull(elapsed_s);
-        let mut displacement_m = [Interval::ZERO; 3];
-        let mut within_m = [Interval::ZERO; 3];
-        for axis in 0..3 {
-            let envelope = Envelope::new(self, stretch, axis);
-            let (mean, reached) = envelope.between(from_s, to_s);
-            let drift = stretch.current_m_s[axis] + self.disturbance_m_s[axis];
-            within_m[axis] = (reached + drift) * (Interval::ONE + self.gain) * so_far_s;
-            // dt = (1 + gain) ds: the mean for the 1, every velocity reached for the gain. Where the clock is bad and the velocity
-            // nearly known, the gain of each velocity is worth more than the mean.
-            let by_mean = mean + reached * self.gain + drift * (Interval::ONE + self.gain);
-            displacement_m[axis] = (by_mean * elapsed_s).intersection(within_m[axis]);
-        }
-        Moved {
-            displacement_m: IntervalBox::from(displacement_m),
-            within_m: IntervalBox::from(within_m),
-            offset_gain_s: self.gain * elapsed_s,
-            offset_within_s: self.gain * so_far_s,
-        }
-    }
-
-    /// Change of velocity per local second, at most, in m/s².
-    fn slope(&self) -> f64 {
-        (self.acceleration_m_s2 * self.fastest).next_up()
-    }
-
-    /// Local seconds between two stamped moments that are `elapsed_s` apart by their stamps.
-    fn around(&self, elapsed_s: f64) -> Interval {
-        Interval::centred(elapsed_s, 2.0 * self.stamp_s + elapsed_s.abs() * f64::EPSILON)
+        self.along(stretch).over(from_s, to_s)
     }
 
     fn longest(&self, elapsed_s: f64) -> f64 {
-        self.around(elapsed_s.abs()).upper()
+        around(elapsed_s.abs(), self.stamp_s).upper()
     }
 }
 
-/// Bounds of one component of the velocity over a stretch: the lesser of two lines above, the greater of two below.
-struct Envelope {
-    before: Interval,
-    after: Interval,
-    limit: Interval,
-    slope: f64,
-    slack_s: f64,
-    length_s: f64,
-}
-
-impl Envelope {
-    fn new(motion: &Motion, stretch: &Stretch, axis: usize) -> Self {
-        Self {
-            before: stretch.before_m_s[axis],
-            after: stretch.after_m_s[axis],
-            limit: motion.speed_m_s,
-            slope: motion.slope(),
-            slack_s: 2.0 * motion.stamp_s,
-            length_s: stretch.length_s,
-        }
-    }
-
-    /// The mean velocity, and all velocities reached, between two moments given in local seconds from the beginning.
-    fn between(&self, from_s: f64, to_s: f64) -> (Interval, Interval) {
-        let upper = Roof {
-            rising: self.before.upper() + self.slope * self.slack_s,
-            falling: self.after.upper() + self.slope * (self.length_s + self.slack_s),
-            slope: self.slope,
-            limit: self.limit.upper(),
-        };
-        let lower = Roof {
-            rising: -self.before.lower() + self.slope * self.slack_s,
-            falling: -self.after.lower() + self.slope * (self.length_s + self.slack_s),
-            slope: self.slope,
-            limit: -self.limit.lower(),
-        };
-        let (upper_mean, upper_most) = upper.mean_and_most(from_s, to_s);
-        let (lower_mean, lower_most) = lower.mean_and_most(from_s, to_s);
-        (Interval::spanning(-lower_mean, upper_mean), Interval::spanning(-lower_most, upper_most))
-    }
-}
-
-/// `min(rising + slope x, falling - slope x, limit)`: how large a velocity component can be x seconds into a stretch.
-struct Roof {
-    rising: f64,
-    falling: f64,
-    slope: f64,
-    limit: f64,
-}
-
-impl Roof {
-    /// Upper bounds of the mean and of the maximum over `[from, to]`.
-    fn mean_and_most(&self, from: f64, to: f64) -> (f64, f64) {
-        // The roof is concave: where the lines cross it is highest, and a tangent never lies below it.
-        let ridge = ((self.falling - self.rising) / (2.0 * self.slope)).clamp(from, to);
-        let most = self.rising + self.slope * ridge;
-        let most =
-            most.min(self.falling - self.slope * ridge).max(self.at(from)).max(self.at(to)).min(self.limit);
-        let (left, right) = (ridge - from, to - ridge);
-        let length = to - from;
-        let mean = if length > 0.0 {
-            // Mid-points of linear pieces are exact means; a limit inside a piece only lowers the roof.
-            let rising_mean = (self.rising + self.slope * (from + 0.5 * left)).min(self.limit);
-            let falling_mean = (self.falling - self.slope * (to - 0.5 * right)).min(self.limit);
-            match (left > 0.0, right > 0.0) {
-                (true, true) => (rising_mean * left + falling_mean * right) / length,
-                (true, false) => rising_mean,
-                _ => falling_mean,
-            }
-        } else {
-            most
-        };
-        (rounded_up(mean), rounded_up(most))
-    }
-
-    fn at(&self, x: f64) -> f64 {
-        (self.rising + self.slope * x).min(self.falling - self.slope * x)
-    }
-}
-
-/// More than the dozen roundings above can have taken away: each is below 2⁻⁵³ of quantities that no speed limit exceeds
-/// a thousandfold.
-fn rounded_up(velocity_m_s: f64) -> f64 {
-    velocity_m_s + 1e-11 * (1.0 + velocity_m_s.abs())
+/// Local seconds between two stamped moments that are `elapsed_s` apart by their stamps, each of which is off by `stamp_s` at most.
+fn around(elapsed_s: f64, stamp_s: f64) -> Interval {
+    Interval::centred(elapsed_s, 2.0 * stamp_s + elapsed_s.abs() * f64::EPSILON)
 }
 
 #[cfg(test)]
@@ -314,7 +219,8 @@ mod tests {
         // Known 2 m/s at both ends of 0.2 s: the mean cannot be off by more than a quarter of acceleration times length.
         let (known_m_s, current_m_s) = (around(2.0, 0.0), motion().current_m_s);
         let stretch = Stretch { before_m_s: known_m_s, after_m_s: known_m_s, current_m_s, length_s: 0.2 };
-        let moved = Motion { gain: Interval::ZERO, fastest: 1.0, ..motion() }.over(&stretch, 0.0, 0.2);
+        let steady = Motion { gain: Interval::ZERO, fastest: 1.0, slope: ACCELERATION_M_S2, ..motion() };
+        let moved = steady.over(&stretch, 0.0, 0.2);
         let without_drift = moved.displacement_m[0].width() - 0.2 * (0.1 + 0.2);
         assert!((without_drift - 2.0 * 0.25 * ACCELERATION_M_S2 * 0.2 * 0.2).abs() < 1e-6, "{without_drift}");
     }

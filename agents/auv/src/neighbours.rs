@@ -1,7 +1,5 @@
 //! Who is around, by the last ping heard from each.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector3;
 use shoal_bus::message::{AuvId, BoundsBox, Fleetmates, Sense, Sensed, box_width};
 use shoal_bus::ping::Payload;
@@ -10,6 +8,7 @@ use shoal_bus::time::LocalTime;
 /// One neighbour as its last ping showed it: middles of intervals or means, for steering, never for enclosures.
 #[derive(Clone, Copy, Debug)]
 struct Neighbour {
+    auv: AuvId,
     heard: LocalTime,
     emission_s: f64,
     position_m: Vector3<f64>,
@@ -22,6 +21,7 @@ impl Neighbour {
         let middle = |sides: BoundsBox| Vector3::from(sides.map(|side| side.mid()));
         match payload {
             Payload::Intervals(ping) => Self {
+                auv: ping.sender,
                 heard,
                 emission_s: ping.emission_s.mid(),
                 position_m: middle(ping.position_m),
@@ -29,6 +29,7 @@ impl Neighbour {
                 box_width_m: box_width(&ping.position_m),
             },
             Payload::Gaussian(ping) => Self {
+                auv: ping.sender,
                 heard,
                 emission_s: ping.emission_s,
                 position_m: ping.position_m.into(),
@@ -55,7 +56,8 @@ pub struct Predicted {
 /// The neighbours heard lately.
 #[derive(Debug, Default)]
 pub struct Neighbours {
-    last: BTreeMap<AuvId, Neighbour>,
+    /// In the order of their ids.
+    last: Vec<Neighbour>,
 }
 
 impl Neighbours {
@@ -66,12 +68,13 @@ impl Neighbours {
             let Sense::Heard { frame } = &event.sense else { continue };
             let Ok(payload) = Payload::decode(frame) else { continue };
             let neighbour = Neighbour::new(&payload, event.stamp);
-            let last = self.last.entry(payload.sender()).or_insert(neighbour);
-            if last.heard <= neighbour.heard {
-                *last = neighbour;
+            match self.last.binary_search_by_key(&neighbour.auv, |last| last.auv) {
+                Ok(known) if self.last[known].heard <= neighbour.heard => self.last[known] = neighbour,
+                Ok(_) => {}
+                Err(place) => self.last.insert(place, neighbour),
             }
         }
-        self.last.retain(|_, neighbour| sensed.stamp - neighbour.heard <= forget_ns);
+        self.last.retain(|neighbour| sensed.stamp - neighbour.heard <= forget_ns);
     }
 
     /// How many there are.
@@ -81,8 +84,8 @@ impl Neighbours {
 
     /// All neighbours as they should be at true time `time_s`, in the order of their ids.
     pub fn at(&self, time_s: f64) -> impl Iterator<Item = Predicted> {
-        self.last.iter().map(move |(&auv, neighbour)| Predicted {
-            auv,
+        self.last.iter().map(move |neighbour| Predicted {
+            auv: neighbour.auv,
             position_m: neighbour.position_m + neighbour.velocity_m_s * (time_s - neighbour.emission_s),
             velocity_m_s: neighbour.velocity_m_s,
             box_width_m: neighbour.box_width_m,

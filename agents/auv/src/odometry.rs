@@ -39,11 +39,16 @@ impl Way {
     }
 
     /// This way, and then `next`.
+    #[inline]
     pub fn then(&self, next: &Way) -> Self {
-        Self {
-            displacement_m: self.displacement_m + next.displacement_m,
-            offset_gain_s: self.offset_gain_s + next.offset_gain_s,
-        }
+        // All four coordinates at once.
+        let [x, y, z, offset_gain_s] = (self.as_box() + next.as_box()).sides();
+        Self { displacement_m: IntervalBox::from([x, y, z]), offset_gain_s }
+    }
+
+    fn as_box(&self) -> IntervalBox<4> {
+        let [x, y, z] = self.displacement_m.sides();
+        IntervalBox::from([x, y, z, self.offset_gain_s])
     }
 
     /// The state at its end, from the one at its beginning.
@@ -98,12 +103,21 @@ impl Odometry {
     }
 
     /// Adds the leg that begins where the last one ended, and forgets those that ended beyond the horizon.
+    ///
+    /// # Panics
+    /// When the leg does not end after it began: the channel's ticks are a period apart, so that is a bug, and no state may grow
+    /// out of it.
     pub fn append(&mut self, leg: Leg) {
+        assert!(leg.begun < leg.ended, "ticks come in order");
         let oldest = leg.ended + -self.horizon_ns;
-        self.legs.push_back(leg);
         while self.legs.front().is_some_and(|leg| leg.ended < oldest) {
             self.legs.pop_front();
         }
+        if self.legs.len() == self.legs.capacity() {
+            // By a quarter and not to the double: what is unused stays small.
+            self.legs.reserve_exact((self.legs.len() / 4).max(4));
+        }
+        self.legs.push_back(leg);
     }
 
     /// Forgets all of it.
@@ -129,8 +143,9 @@ impl Odometry {
         let index = self.legs.partition_point(|leg| leg.ended < stamp);
         let leg = self.legs.get(index).filter(|leg| leg.begun <= stamp)?;
         let split_s = seconds(stamp - leg.begun);
-        let before = motion.over(&leg.stretch, 0.0, split_s);
-        let after = motion.over(&leg.stretch, split_s, leg.stretch.length_s);
+        let passage = motion.along(&leg.stretch);
+        let before = passage.over(0.0, split_s);
+        let after = passage.over(split_s, leg.stretch.length_s);
         let since = self.legs.range(index + 1..);
         let way = since.fold(Way::from(&after), |way, leg| way.then(&leg.way));
         Some((leg.state.moved(&before), way))

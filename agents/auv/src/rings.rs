@@ -86,14 +86,16 @@ pub struct Rings {
     most: usize,
     horizon_s: f64,
     rings: Vec<Ring>,
-    /// What the body did that no ring was told of yet, so that a step in which nothing is heard costs the same whatever is remembered.
-    untold: Way,
+    /// What the body did that no ring was told of yet, so that a step in which nothing is heard costs the same whatever is remembered, and
+    /// so that a ring which others displace in the same step never hears of it: of each ring, what was done from then on until
+    /// the next one. It is for that ring and all before it.
+    untold: Vec<Option<Way>>,
 }
 
 impl Rings {
     /// None heard yet; later no more than `most`, and none that arrived more than `horizon_s` local seconds ago.
     pub fn new(most: usize, horizon_s: f64) -> Self {
-        Self { most, horizon_s, rings: Vec::with_capacity(most), untold: Way::none() }
+        Self { most, horizon_s, rings: Vec::with_capacity(most), untold: Vec::with_capacity(most) }
     }
 
     /// All of them, the oldest first, around the present.
@@ -104,7 +106,7 @@ impl Rings {
 
     /// Bytes of heap in use.
     pub fn memory_bytes(&self) -> usize {
-        self.rings.capacity() * size_of::<Ring>()
+        self.rings.capacity() * size_of::<Ring>() + self.untold.capacity() * size_of::<Option<Way>>()
     }
 
     /// Adds the newest. The oldest makes room for it.
@@ -114,30 +116,43 @@ impl Rings {
         }
         if self.rings.len() == self.most {
             self.rings.remove(0);
+            self.untold.remove(0);
         }
-        self.tell();
         self.rings.push(ring);
+        self.untold.push(None);
     }
 
     /// All go along with the body.
     pub fn carry(&mut self, way: &Way) {
-        self.untold = self.untold.then(way);
+        if let Some(untold) = self.untold.last_mut() {
+            *untold = Some(untold.map_or(*way, |untold| untold.then(way)));
+        }
     }
 
     fn tell(&mut self) {
-        let way = std::mem::replace(&mut self.untold, Way::none());
-        self.rings.iter_mut().for_each(|ring| ring.carry(&way));
+        for (index, untold) in self.untold.iter_mut().enumerate() {
+            if let Some(way) = untold.take() {
+                self.rings[..=index].iter_mut().for_each(|ring| ring.carry(&way));
+            }
+        }
     }
 
     /// Forgets those beyond the horizon of a local time.
     pub fn forget(&mut self, now_s: f64) {
         let oldest_s = now_s - self.horizon_s;
-        self.rings.retain(|ring| ring.arrival_s.upper() >= oldest_s);
+        let is_old = |ring: &Ring| ring.arrival_s.upper() < oldest_s;
+        if self.rings.iter().any(is_old) {
+            self.tell();
+            self.rings.retain(|ring| !is_old(ring));
+            self.untold.truncate(self.rings.len());
+        }
     }
 
     /// Forgets so many of the newest.
     pub fn drop_newest(&mut self, count: usize) {
+        self.tell();
         self.rings.truncate(self.rings.len().saturating_sub(count));
+        self.untold.truncate(self.rings.len());
     }
 }
 

@@ -292,6 +292,7 @@ impl Estimator for SetObserver {
         let (mut contractions, mut rejected) = (0, 0);
         let begun = self.travel.now();
         let stretch = self.travel.advance(sensed, &mut emptied);
+        let passage = self.travel.motion().along(&stretch);
         // What the log contradicts is no bound of where the body went since the last tick.
         self.begins_again = emptied.is_some() && self.on_empty == Recovery::Restart;
         self.anywhere_m = self.anywhere_since(&stretch, self.begins_again);
@@ -304,7 +305,7 @@ impl Estimator for SetObserver {
         loop {
             // All events up to the next moment are told before the set moves on to it.
             let next = events.peek().map_or(sensed.stamp, |event| event.stamp.clamp(since, sensed.stamp));
-            let moved = self.travel.motion().over(&stretch, seconds(since - begun), seconds(next - begun));
+            let moved = passage.over(seconds(since - begun), seconds(next - begun));
             let before = self.states.hull();
             let step = Way::from(&moved);
             self.carry(&step);

@@ -10,7 +10,7 @@ use crate::motion::Moved;
 ///
 /// The true time is enclosed by its difference from the own clock: t lies in `local + offset_s`, where `local` is the exact
 /// local time of the moment, within the stamp's tolerance of its stamp.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// True minus local time, in seconds.
     pub offset_s: Interval,
@@ -123,6 +123,10 @@ impl State {
 
     /// Whether this state is smaller than `before` in some coordinate, by more than this part of its width.
     pub fn is_tighter_by(&self, before: &Self, ratio: f64) -> bool {
+        // So it is with most of what is heard.
+        if self == before {
+            return false;
+        }
         let shrunk = |now: Interval, then: Interval| now.width() < then.width() * (1.0 - ratio);
         shrunk(self.offset_s, before.offset_s)
             || (0..3).any(|axis| shrunk(self.position_m[axis], before.position_m[axis]))

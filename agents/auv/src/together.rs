@@ -19,6 +19,8 @@ use crate::state::{Contradiction, Sound, State};
 const ROUNDS: usize = 4;
 /// More planes than this are not looked at together: those of the newest rings are.
 const PLANES: usize = 64;
+/// As many as are usual: room for more takes time to clear.
+const USUAL_PLANES: usize = 16;
 
 /// Whether a ring says anything of a state's position and clock together, once it has been heard out on its own.
 pub fn is_cut_by(state: &State, ring: &Ring, sound: &Sound) -> bool {
@@ -39,7 +41,10 @@ pub fn contract(
     let mut state = *state;
     for _ in 0..ROUNDS {
         let before = state;
-        state = within_planes(rings, &state, sound)?;
+        state = match 2 * rings.len() <= USUAL_PLANES {
+            true => within_planes::<USUAL_PLANES>(rings, &state, sound)?,
+            false => within_planes::<PLANES>(rings, &state, sound)?,
+        };
         if !state.is_tighter_by(&before, stopping_ratio) {
             break;
         }
@@ -51,14 +56,18 @@ pub fn contract(
     Ok(state)
 }
 
-/// The states between the planes of all rings.
-fn within_planes(rings: &[Ring], state: &State, sound: &Sound) -> Result<State, Contradiction> {
+/// The states between the planes of all rings, or of the newest that have `MOST` planes.
+fn within_planes<const MOST: usize>(
+    rings: &[Ring],
+    state: &State,
+    sound: &Sound,
+) -> Result<State, Contradiction> {
     let mut frame = Frame::new(state);
-    let mut planes = [HalfSpace::NONE; PLANES];
+    let mut planes = [HalfSpace::NONE; MOST];
     let mut count = 0;
     for (index, ring) in rings.iter().enumerate().rev() {
         for plane in frame.planes(ring, index, sound).into_iter().flatten() {
-            if count < PLANES {
+            if count < MOST {
                 planes[count] = plane;
                 count += 1;
             }

@@ -11,7 +11,6 @@ use shoal_interval::Interval;
 
 use crate::bounds::{interval, interval_box};
 use crate::estimator::{Estimate, Estimator, Prediction};
-use crate::history::History;
 use crate::motion::Stretch;
 use crate::odometry::{Leg, Odometry, Way};
 use crate::rings::{Ring, Rings};
@@ -29,7 +28,10 @@ pub struct TubeEstimator {
     sound_speed_is_constant: bool,
     timestamp_s: f64,
     stamp_s: f64,
-    history: History,
+    /// What can have happened between a moment and an event of the same stamp.
+    at_once: Way,
+    /// At the last tick.
+    state: State,
     odometry: Odometry,
     rings: Rings,
     stopping_ratio: f64,
@@ -58,14 +60,18 @@ impl TubeEstimator {
             speed_m_s: interval(born.modem.sound_speed_m_s),
             hearing_range_m: born.modem.hearing_range_m,
         };
+        let travel = Travel::new(born);
+        let timestamp_s = born.modem.timestamp_s;
+        let stamp_s = born.clock.stamp_ns as f64 * 1e-9;
         Self {
-            travel: Travel::new(born),
+            at_once: Way::within(travel.motion(), apart_s(0.0, timestamp_s, stamp_s)),
+            travel,
             sound: told_sound,
             told_sound,
             sound_speed_is_constant: born.modem.sound_speed_is_constant,
-            timestamp_s: born.modem.timestamp_s,
-            stamp_s: born.clock.stamp_ns as f64 * 1e-9,
-            history: History::new(born.birth, &state, horizon_ns),
+            timestamp_s,
+            stamp_s,
+            state,
             odometry: Odometry::new(horizon_ns),
             rings: Rings::new(settings.rings.into(), seconds(horizon_ns)),
             stopping_ratio: settings.stopping_ratio,
@@ -89,7 +95,7 @@ impl TubeEstimator {
 
     /// Bytes of heap that are in use for what is remembered; the horizon and the number of rings bound them.
     pub fn memory_bytes(&self) -> usize {
-        self.history.memory_bytes() + self.odometry.memory_bytes() + self.rings.memory_bytes()
+        self.odometry.memory_bytes() + self.rings.memory_bytes()
     }
 
     /// Exact local time of something stamped `stamp`, in seconds.
@@ -151,9 +157,13 @@ impl TubeEstimator {
         stamp_s: Interval,
         lag_s: f64,
     ) -> Result<Informed, Contradiction> {
-        let apart_s = lag_s + self.timestamp_s + 2.0 * self.stamp_s;
         let arrival_s = stamp_s.inflate(self.timestamp_s);
-        let ring = Ring::new(ping, arrival_s, Way::within(self.travel.motion(), apart_s));
+        let since = if lag_s == 0.0 {
+            self.at_once
+        } else {
+            Way::within(self.travel.motion(), apart_s(lag_s, self.timestamp_s, self.stamp_s))
+        };
+        let ring = Ring::new(ping, arrival_s, since);
         let (state, sound) = ring.contract_with_sound(state, &self.sound)?;
         Ok(Informed { state, sound, ring: Some(ring) })
     }
@@ -169,6 +179,11 @@ impl TubeEstimator {
     }
 }
 
+/// Local seconds, at most, between a moment and an event that is stamped `lag_s` before it.
+fn apart_s(lag_s: f64, timestamp_s: f64, stamp_s: f64) -> f64 {
+    lag_s + timestamp_s + 2.0 * stamp_s
+}
+
 impl Estimator for TubeEstimator {
     fn update(&mut self, sensed: &Sensed) -> Estimate {
         let mut emptied = None;
@@ -176,7 +191,8 @@ impl Estimator for TubeEstimator {
         let mut rejected = 0;
         let begun = self.travel.now();
         let stretch = self.travel.advance(sensed, &mut emptied);
-        let mut state = self.history.last();
+        let passage = self.travel.motion().along(&stretch);
+        let mut state = self.state;
         let mut since = begun;
         let mut slice: Option<State> = None;
         let mut way = Way::none();
@@ -186,7 +202,7 @@ impl Estimator for TubeEstimator {
         loop {
             // All events up to the next moment are told before the tube moves on to it.
             let next = events.peek().map_or(sensed.stamp, |event| event.stamp.clamp(since, sensed.stamp));
-            let moved = self.travel.motion().over(&stretch, seconds(since - begun), seconds(next - begun));
+            let moved = passage.over(seconds(since - begun), seconds(next - begun));
             let before = state;
             state = state.moved(&moved);
             way = way.then(&Way::from(&moved));
@@ -236,13 +252,13 @@ impl Estimator for TubeEstimator {
 
         let slice = slice.unwrap_or(state);
         self.rings.forget(sensed.stamp.as_s());
-        self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.history.last(), stretch, way });
-        self.history.append(sensed.stamp, &slice, &state);
+        self.odometry.append(Leg { begun, ended: sensed.stamp, state: self.state, stretch, way });
+        self.state = state;
         Estimate { state, slice, emptied, contractions, rejected, components: 1, gaussian: None }
     }
 
     fn predict(&self, at: LocalTime) -> Prediction {
-        self.travel.predict(&self.history.last(), at, self.local_s(at))
+        self.travel.predict(&self.state, at, self.local_s(at))
     }
 }
 

@@ -361,8 +361,8 @@ fn pose_at(segment: &Segment, t: SimTime) -> Pose {
 
 /// The same direction in (-pi, pi].
 fn wrapped(angle_rad: f64) -> f64 {
-    // The remainder is exact.
-    let angle_rad = angle_rad % (2.0 * PI);
+    // The remainder is exact, so one that is the angle itself need not be worked out.
+    let angle_rad = if angle_rad.abs() < 2.0 * PI { angle_rad } else { angle_rad % (2.0 * PI) };
     if angle_rad > PI {
         angle_rad - 2.0 * PI
     } else if angle_rad <= -PI {

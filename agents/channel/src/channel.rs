@@ -1,33 +1,35 @@
 //! The channel: the whole truth of a run, advanced window by window.
 
+mod answers;
+mod departures;
+mod life;
+mod order;
 mod rebirth;
 
-use std::sync::Arc;
-
-use nalgebra::Vector3;
-use shoal_bus::chronicle::{Enclosure, Entry, Truth, Violation, What};
+use shoal_bus::chronicle::{Entry, What};
 use shoal_bus::codec::CodecError;
 use shoal_bus::lockstep::{Answers, Batch, Loss};
-use shoal_bus::message::{Acted, Around, AuvId, Born, Estimator, Event, Sensed, box_width};
-use shoal_bus::ping::{Frame, Payload};
+use shoal_bus::message::{Acted, AuvId, Born, Estimator, Event, Sensed};
 use shoal_bus::summary::Summary;
 use shoal_bus::time::SimTime;
-use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use shoal_scenario::model::{Fault, Scenario, WaterSabotage};
 use thiserror::Error;
 
 use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
-use crate::check::{self, Check};
 use crate::digest::Digest;
 use crate::flock::Flock;
 use crate::grid::Grid;
 use crate::medium::Medium;
-use crate::sound::{Told, Wavefront};
-use crate::tally::{Excuse, Tally};
-use crate::vehicle::{Planned, Tick, Vehicle};
+use crate::parallel::{PIECE, share_out, shares_of};
+use crate::sound::Told;
+use crate::tally::{Counts, Excuse, Tally, ToldPings};
+use crate::vehicle::{Planned, Vehicle};
 use crate::water::Water;
+
+use self::answers::Sighting;
+use self::order::CanonicalOrder;
 
 /// Why a run cannot go on.
 #[derive(Debug, Error)]
@@ -77,17 +79,38 @@ pub struct Channel {
     grid: Grid,
     /// Where all vehicles were when the window began.
     places_m: Vec<Vec3>,
-    told: Vec<Told>,
     fastest_m_s: f64,
+    lookahead_ns: i64,
+    /// One for each piece of the swarm.
+    shares: Vec<Share>,
     now: SimTime,
     accepted: SimTime,
     happened: Vec<Entry>,
     chronicled: Vec<Entry>,
-    /// Memory of events that were chronicled, to be written anew.
-    spare: Vec<Vec<Event>>,
+    order: CanonicalOrder,
+    /// Where all vehicles were at moments that are not looked at yet.
+    moments_m: Vec<Vec<Vec3>>,
     flock: Flock,
     tally: Tally,
     digest: Digest,
+}
+
+/// One piece of the swarm's part in a window: memory to work in, and the outcome. What is not taken from it keeps its memory.
+#[derive(Default)]
+struct Share {
+    counts: Counts,
+    leaving: Vec<(AuvId, Planned)>,
+    /// How far kidnappers carried anyone in this window, in metres.
+    leapt_m: f64,
+    told: Vec<Told>,
+    /// The earliest wavefront that anyone waits for.
+    waits_for: Option<u64>,
+    batches: Vec<Batch<Sensed>>,
+    /// Memory of events that were chronicled, to be written anew: fresh one would cost more than what is written into it.
+    spare: Vec<Vec<Event>>,
+    answers: Vec<Batch<Acted>>,
+    sightings: Vec<Sighting>,
+    losses: Vec<Loss>,
 }
 
 impl Channel {
@@ -122,15 +145,17 @@ impl Channel {
             tally: Tally::new(vehicles.len()),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
-            places_m: Vec::new(),
-            told: Vec::new(),
+            places_m: vec![Vec3::zeros(); vehicles.len()],
+            lookahead_ns: vehicles.iter().map(Vehicle::lookahead_ns).min().unwrap_or(i64::MAX),
+            shares: (0..shares_of(vehicles.len())).map(|_| Share::default()).collect(),
             fastest_m_s: vehicles.iter().map(|vehicle| vehicle.ground_speed_m_s).fold(0.0, f64::max),
             vehicles,
             now: SimTime::ZERO,
             accepted: SimTime::ZERO,
             happened: Vec::new(),
             chronicled: Vec::new(),
-            spare: Vec::new(),
+            order: CanonicalOrder::default(),
+            moments_m: Vec::new(),
             flock: Flock::default(),
             digest: Digest::default(),
         })
@@ -150,7 +175,7 @@ impl Channel {
 
     /// The longest window in nanoseconds: no decision made within one may act within it.
     pub fn lookahead_ns(&self) -> i64 {
-        self.vehicles.iter().map(Vehicle::lookahead_ns).min().unwrap_or(i64::MAX)
+        self.lookahead_ns
     }
 
     /// True time up to which the run has advanced.
@@ -170,20 +195,14 @@ impl Channel {
 
     /// Advances to `to` and returns what every AUV with a tick before it senses, sorted by AUV.
     pub fn advance(&mut self, to: SimTime) -> Result<Vec<Batch<Sensed>>, ChannelError> {
-        let (window_ns, lookahead_ns) = (to - self.now, self.lookahead_ns());
+        let (window_ns, lookahead_ns) = (to - self.now, self.lookahead_ns);
         if window_ns > lookahead_ns {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
-        self.places_m.clear();
-        for vehicle in &mut self.vehicles {
-            vehicle.forget_before(self.now);
-            vehicle.body.integrate(to);
-            self.places_m.push(vehicle.body.position_at(self.now));
-        }
-        self.emit(to);
-        self.arrive(to);
-        let batches = self.tick(to);
-        self.watch_separation(to);
+        self.move_bodies(to);
+        self.depart();
+        let batches = self.live(to);
+        self.remember_places(to);
         self.now = to;
         Ok(batches)
     }
@@ -191,33 +210,30 @@ impl Channel {
     /// Takes the answers to the window just advanced and checks them. What happened in it waits for
     /// [`chronicle`](Channel::chronicle).
     pub fn accept(&mut self, answers: Answers) {
-        for batch in answers.acted {
-            for acted in batch.items {
-                if let Err(reason) = self.answer(batch.auv, acted) {
-                    self.lose(Loss { auv: batch.auv, reason });
-                    break;
-                }
-            }
-        }
+        self.take_answers(answers.acted);
         for loss in answers.losses {
             self.lose(loss);
         }
         self.accepted = self.now;
         // Buffers go round: fresh ones would cost more than what is written into them.
         self.happened.clear();
-        std::mem::swap(&mut self.happened, &mut self.tally.window);
+        std::mem::swap(&mut self.happened, &mut self.tally.counts.entries);
     }
 
-    /// What happened in the window last accepted, in canonical order. It enters the digest here, apart from
-    /// [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
+    /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
+    /// apart from [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
-        self.spare.extend(self.chronicled.drain(..).filter_map(|entry| match entry.what {
-            What::Sensed(sensed) => Some(sensed.events),
-            _ => None,
-        }));
+        for entry in self.chronicled.drain(..) {
+            if let What::Sensed(sensed) = entry.what
+                && let Some(share) = self.shares.get_mut(entry.auv.0 as usize / PIECE)
+            {
+                share.spare.push(sensed.events);
+            }
+        }
         std::mem::swap(&mut self.chronicled, &mut self.happened);
-        self.chronicled.sort_by_cached_key(canonical_order);
+        self.order.sort(&mut self.chronicled);
         self.digest.update(&self.chronicled)?;
+        self.watch_separation();
         Ok(&self.chronicled)
     }
 
@@ -240,217 +256,44 @@ impl Channel {
         let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
         let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
         let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
-        let windows: Vec<_> = self.vehicles.iter().map(Vehicle::windows).collect();
+        let told = |vehicle: &Vehicle| ToldPings { heard: vehicle.pings_heard, windows: vehicle.windows() };
+        let told: Vec<_> = self.vehicles.iter().map(told).collect();
         let in_flight = self.medium.in_flight();
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &windows)
+        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told)
     }
 
-    /// All pings that leave before `to`.
-    fn emit(&mut self, to: SimTime) {
-        let mut leaving: Vec<(SimTime, AuvId, Planned)> = Vec::new();
-        for vehicle in &mut self.vehicles {
-            while let Some(planned) = vehicle.next_emission(to) {
-                leaving.push((planned.at, vehicle.born.auv, planned));
+    /// Moves all bodies to `to`, and lets go what leaves before.
+    fn move_bodies(&mut self, to: SimTime) {
+        let now = self.now;
+        share_out(&mut self.vehicles, &mut self.places_m, &mut self.shares, |vehicles, places_m, share| {
+            share.leapt_m = 0.0;
+            for (vehicle, place_m) in vehicles.iter_mut().zip(places_m) {
+                vehicle.forget_before(now);
+                vehicle.body.integrate(to);
+                *place_m = vehicle.body.position_at(now);
+                share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));
+                while let Some(planned) = vehicle.next_emission(to) {
+                    share.leaving.push((vehicle.born.auv, planned));
+                }
             }
-        }
-        if leaving.is_empty() {
-            return;
-        }
-        self.grid.sort(&self.places_m, self.medium.farthest_m());
-        if leaving.iter().any(|(_, _, planned)| planned.listen_ns > 0) {
-            // What a modem hears decides whether it emits, so what came before has to be known.
-            leaving.sort_by_key(|&(at, auv, _)| (at, auv));
-        } else {
-            // Otherwise only an emitter's own order counts, and neighbours in space share neighbours in memory.
-            leaving.sort_by_key(|&(at, auv, _)| (self.grid.cell_of(auv.0 as usize), auv, at));
-        }
-        let start = self.now;
-        let leapt_m = self.vehicles.iter().map(|vehicle| vehicle.body.leapt_since(start)).fold(0.0, f64::max);
-        for (at, from, planned) in leaving {
-            self.emit_one(at, from, planned, leapt_m);
-        }
-    }
-
-    /// One ping that leaves; kidnappers carried nobody farther than `leapt_m` since `now`.
-    fn emit_one(&mut self, at: SimTime, from: AuvId, planned: Planned, leapt_m: f64) {
-        let group = self.vehicles[from.0 as usize].born.group;
-        let packet_ns = self.medium.packet_ns(group, planned.frame.bytes().len() as u16);
-        if let Some(reason) = self.held_back(at, from, &planned) {
-            let sequence = self.vehicles[from.0 as usize].emitted;
-            let fate = Fate::lost(None, reason, 0.0);
-            self.tally.traffic(from, Traffic { at, from, sequence, fate });
-            return;
-        }
-        let emitter = &mut self.vehicles[from.0 as usize];
-        let sequence = emitter.emitted;
-        emitter.emitted += 1;
-        emitter.emits_until = at + packet_ns;
-        let pose = emitter.body.at(at);
-        let excuse = excuse(emitter, at, planned.booked);
-        let Checked { is_promise, violation, box_width_m } =
-            check_ping(&emitter.born, at, &planned.frame, &pose.position_m, &pose.ground_velocity_m_s);
-        let wavefront = Arc::new(Wavefront {
-            from,
-            sequence,
-            emitted: at,
-            packet_ns,
-            origin_m: pose.position_m,
-            velocity_m_s: pose.ground_velocity_m_s,
-            frame: planned.frame,
-            box_width_m,
-            range_m: emitter.born.modem.range_m,
-            is_false: violation.is_some(),
         });
-        let moved_m = self.fastest_m_s * ((at - self.now) as f64 * 1e-9) + 1e-6 + leapt_m;
-        let beyond_range = self.medium.emit(&wavefront, &mut self.vehicles, &self.grid, moved_m);
-        let fate = Fate::Emitted {
-            position_m: pose.position_m.into(),
-            bytes: wavefront.frame.bytes().len() as u16,
-            box_width_m,
-            beyond_range,
-            packet_s: packet_ns as f64 * 1e-9,
-        };
-        self.tally.traffic(from, Traffic { at, from, sequence, fate });
-        if is_promise {
-            self.tally.check(from, at, violation, excuse);
-        }
     }
 
-    /// Why a modem does not emit what is booked for now, if it does not.
-    fn held_back(&mut self, at: SimTime, from: AuvId, planned: &Planned) -> Option<LossReason> {
-        if at < self.vehicles[from.0 as usize].emits_until {
-            return Some(LossReason::HalfDuplex);
-        }
-        if planned.listen_ns == 0 {
-            return None;
-        }
-        if self.medium.is_quiet(from, at + -planned.listen_ns, at, &mut self.vehicles) {
-            return None;
-        }
-        self.vehicles[from.0 as usize].hold(planned.stamp, at);
-        Some(LossReason::Busy)
-    }
-
-    /// All pings that are settled before `to`.
-    fn arrive(&mut self, to: SimTime) {
-        let mut told = std::mem::take(&mut self.told);
-        self.medium.arrive(to, &mut self.vehicles, &mut told);
-        // Receivers share nothing, so that each takes all that is its own at once.
-        told.sort_by_cached_key(|told| (told.to, told.at, told.wavefront.from, told.wavefront.sequence));
-        for Told { at, to, wavefront, mut fate, stamp, incidence } in told.drain(..) {
-            let receiver = &mut self.vehicles[to.0 as usize];
-            let (from, sequence) = (wavefront.from, wavefront.sequence);
-            match fate {
-                Fate::Heard { range_m, .. } if !receiver.alive => {
-                    fate = Fate::lost(Some(to), LossReason::Dead, range_m);
-                }
-                Fate::Heard { range_m, .. } if receiver.was_kidnapped_between(wavefront.emitted, at) => {
-                    fate = Fate::lost(Some(to), LossReason::Asleep, range_m);
-                }
-                Fate::Heard { ref mut outlier, .. } => {
-                    let late_ns = receiver.draw_false_arrival();
-                    *outlier |= late_ns.is_some();
-                    let is_false = *outlier || wavefront.is_false;
-                    receiver.hear(at, stamp, late_ns.unwrap_or(0), &wavefront, incidence.as_ref(), is_false);
-                }
-                _ => {}
-            }
-            self.tally.traffic(to, Traffic { at, from, sequence, fate });
-        }
-        self.told = told;
-    }
-
-    /// All ticks before `to`.
-    fn tick(&mut self, to: SimTime) -> Vec<Batch<Sensed>> {
-        let mut batches = Vec::new();
-        for vehicle in self.vehicles.iter_mut().filter(|vehicle| vehicle.alive) {
-            let auv = vehicle.born.auv;
-            let mut items = Vec::new();
-            while vehicle.next_tick_at() < to {
-                let (tick, sensed) = vehicle.sense();
-                let truth = Truth {
-                    tick: tick.index,
-                    local: tick.stamp,
-                    position_m: tick.pose.position_m.into(),
-                    velocity_m_s: tick.pose.water_velocity_m_s.into(),
-                    heading_rad: tick.pose.attitude.heading_rad,
-                    pitch_rad: tick.pose.attitude.pitch_rad,
-                };
-                self.tally.happened(tick.at, auv, What::Truth(truth));
-                let mut events = self.spare.pop().unwrap_or_default();
-                events.clone_from(&sensed.events);
-                self.tally.happened(tick.at, auv, What::Sensed(Sensed { events, ..sensed }));
-                items.push(sensed);
-            }
-            if !items.is_empty() {
-                batches.push(Batch { auv, items });
-            }
-        }
-        batches
-    }
-
-    fn watch_separation(&mut self, to: SimTime) {
+    /// Bodies forget where they were, so whoever looks at it later has to note it down.
+    fn remember_places(&mut self, to: SimTime) {
         for at in Flock::samples(self.now, to) {
-            let positions_m: Vec<Vec3> =
-                self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect();
-            let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
+            self.moments_m.push(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect());
+        }
+    }
+
+    fn watch_separation(&mut self) {
+        if self.moments_m.is_empty() {
+            return;
+        }
+        let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
+        for positions_m in self.moments_m.drain(..) {
             self.flock.sample(&positions_m, &length_m);
         }
-    }
-
-    /// Takes one answer: checks its report, books its setpoint and pings. The reason is why the AUV has lost its place.
-    fn answer(&mut self, auv: AuvId, acted: Acted) -> Result<(), String> {
-        let Some(vehicle) = self.vehicles.get_mut(auv.0 as usize).filter(|vehicle| vehicle.alive) else {
-            return Ok(());
-        };
-        let Some(tick) = vehicle.answer_tick() else {
-            return Err("it answered a tick that it was not asked".to_owned());
-        };
-        vehicle.validate(&acted, &tick)?;
-
-        let wake = vehicle.born.wake;
-        let takes_effect = tick.stamp + wake.reaction_ns;
-        let velocity_m_s = Vector3::from(acted.setpoint.velocity_m_s);
-        vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
-        let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
-        let report = &acted.report;
-        let (promises, excuse) = (promises(&vehicle.born), excuse(vehicle, tick.at, tick.at));
-        if promises {
-            let at_tick = Check::of(Enclosure::Report)
-                .position(&report.position_m, &tick.pose.position_m)
-                .time(&report.clock_offset_s, offset_s)
-                .violation();
-            let between_ticks = Check::of(Enclosure::Slice)
-                .position(&report.slice.position_m, &tick.between_position_m)
-                .time(&report.slice.clock_offset_s, tick.between_offset_s)
-                .violation();
-            self.tally.check(auv, tick.at, at_tick, excuse);
-            self.tally.check(auv, tick.at, between_ticks, excuse);
-            if report.emptied.is_some() {
-                self.tally.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), excuse);
-                if let Some(after_ns) = vehicle.notices(tick.at) {
-                    self.tally.noticed(after_ns);
-                }
-            }
-        }
-        self.tally.reported(auv, report, &tick.pose.position_m, offset_s);
-        for (index, ping) in acted.pings.iter().enumerate() {
-            if ping.at < takes_effect {
-                // It never left, so it has no number but its place in the answer.
-                let sequence = index as u32;
-                let fate = Fate::lost(None, LossReason::Late, 0.0);
-                self.tally.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
-            } else {
-                vehicle.plan(ping.clone(), tick.at);
-            }
-        }
-        for around in report.around.iter().filter(|_| promises) {
-            let violation = check_around(around, &tick, &self.vehicles);
-            let excuse = excuse_around(auv, around, tick.at, &self.vehicles).or(excuse);
-            self.tally.check(auv, tick.at, violation, excuse);
-        }
-        self.tally.happened(tick.at, auv, What::Acted(acted));
-        Ok(())
     }
 
     fn lose(&mut self, loss: Loss) {
@@ -473,62 +316,4 @@ fn excuse(vehicle: &Vehicle, at: SimTime, known: SimTime) -> Option<Excuse> {
 /// Whether the AUV promises that what it states holds the truth: all but Kalman filters do.
 fn promises(born: &Born) -> bool {
     !matches!(born.orders.estimator, Estimator::Ekf(_))
-}
-
-/// What a payload is worth.
-struct Checked {
-    is_promise: bool,
-    violation: Option<Violation>,
-    box_width_m: f64,
-}
-
-/// Checks a payload at its emission. The Gaussian of an AUV that promises nothing is not false, whatever it says: only estimators
-/// that promise nothing either take it in.
-fn check_ping(emitter: &Born, at: SimTime, frame: &Frame, position_m: &Vec3, velocity_m_s: &Vec3) -> Checked {
-    let (is_promise, violation, box_width_m) = match Payload::decode(frame) {
-        Ok(Payload::Intervals(ping)) if ping.sender == emitter.auv => {
-            let violation = Check::of(Enclosure::Ping)
-                .position(&ping.position_m, position_m)
-                .velocity(&ping.velocity_m_s, velocity_m_s)
-                .time(&ping.emission_s, at.as_s())
-                .violation();
-            (true, violation, box_width(&ping.position_m))
-        }
-        Ok(Payload::Gaussian(ping)) if ping.sender == emitter.auv && !promises(emitter) => {
-            (false, None, box_width(&ping.position_box_m()))
-        }
-        _ => (true, Some(check::nothing(Enclosure::Ping)), 0.0),
-    };
-    Checked { is_promise, violation, box_width_m }
-}
-
-/// Why no promise covers where an AUV sees a neighbour at `at`, besides what excuses all that it states: its past sightings do not know
-/// that one of both was carried elsewhere.
-fn excuse_around(auv: AuvId, around: &Around, at: SimTime, vehicles: &[Vehicle]) -> Option<Excuse> {
-    // No number of wrong pings is assumed of neighbours.
-    if vehicles.get(auv.0 as usize).is_some_and(|vehicle| vehicle.is_deceived_at(at)) {
-        return Some(Excuse::Misled);
-    }
-    let both = [auv, around.auv].into_iter().filter_map(|auv| vehicles.get(auv.0 as usize));
-    let mut kidnapped = both.filter(|vehicle| vehicle.was_kidnapped_between(SimTime::ZERO, at));
-    kidnapped.next().map(|_| Excuse::Kidnapped)
-}
-
-/// Checks where an AUV sees a neighbour at its tick, which lies in the window just advanced.
-fn check_around(around: &Around, tick: &Tick, vehicles: &[Vehicle]) -> Option<Violation> {
-    let Some(neighbour) = vehicles.get(around.auv.0 as usize) else {
-        return Some(check::nothing(Enclosure::Around));
-    };
-    let apart_m = neighbour.body.position_at(tick.at) - tick.pose.position_m;
-    Check::of(Enclosure::Around).horizontal(&around.position_m, &apart_m).violation()
-}
-
-/// (true time, vehicle, kind, index): entries of one vehicle, kind and moment keep the order in which they were told, but
-/// for pings, which are told by emitter and number.
-fn canonical_order(entry: &Entry) -> (SimTime, AuvId, u8, u32, u32) {
-    let (from, sequence) = match &entry.what {
-        What::Traffic(traffic) => (traffic.from.0, traffic.sequence),
-        _ => (0, 0),
-    };
-    (entry.at, entry.auv, entry.what.rank(), from, sequence)
 }

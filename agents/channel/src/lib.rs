@@ -2,8 +2,8 @@
 //!
 //! [`Channel`](channel::Channel) owns the truth. It advances true time in windows, tells each AUV what it senses, takes what
 //! each decides, delays every ping by the range between emitter and receiver while both move, and compares every enclosure
-//! that an AUV states with the truth. Nothing in here reads a wall clock, opens a file or starts a thread, and no AUV code is
-//! reachable from here.
+//! that an AUV states with the truth. Nothing in here reads a wall clock or opens a file, and no AUV code is reachable from
+//! here. With the feature `parallel`, pieces of the swarm are worked on side by side, which no result depends on.
 //!
 //! | file | idea |
 //! |---|---|
@@ -25,6 +25,7 @@
 //! | `grid.rs` | who is near |
 //! | `ideal.rs` | sound as a sphere with a sharp edge |
 //! | `medium.rs` | either level behind one face |
+//! | `parallel.rs` | pieces of the swarm side by side |
 //! | `budget.rs` | the sonar equation |
 //! | `sea.rs` | sound as in water |
 //! | `flock.rs` | separation, alignment, connectivity |
@@ -51,6 +52,7 @@ pub mod flock;
 pub mod grid;
 mod ideal;
 mod medium;
+mod parallel;
 pub mod reception;
 mod sea;
 pub mod sensors;

@@ -1,41 +1,137 @@
 //! Sound at either level, behind one face.
 
-use std::sync::Arc;
-
 use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
-use shoal_scenario::model::{Fault, Level, Scenario};
+use shoal_scenario::model::{Fault, Level as LevelModel, Scenario};
 
 use crate::grid::Grid;
 use crate::ideal::Ideal;
-use crate::sea::Sea;
-use crate::sound::{Told, Wavefront};
+use crate::parallel::{share_out, shares_of};
+use crate::sea::{Listener, Sea};
+use crate::sound::{Flight, Told, Wavefront, Wavefronts};
 use crate::vehicle::Vehicle;
 use crate::water::Water;
 
 /// What carries pings from emitters to receivers.
-pub enum Medium {
+pub struct Medium {
+    /// What sound meets.
+    pub level: Level,
+    /// Pings under way.
+    pub wavefronts: Wavefronts,
+    /// One for each AUV.
+    pub receivers: Vec<Receiver>,
+    departures: Vec<Departure>,
+    spread: Vec<Vec<Recipient>>,
+}
+
+/// Water as sound meets it; it never changes.
+pub enum Level {
     /// A sphere with a sharp edge.
     Ideal(Ideal),
     /// As in water.
     Sea(Box<Sea>),
 }
 
+/// What is on its way to one AUV.
+#[derive(Default)]
+pub struct Receiver {
+    /// Wavefronts that have not arrived (level `ideal`) or that its listener does not know yet (level `sea`).
+    flights: Vec<Flight>,
+    listener: Option<Box<Listener>>,
+}
+
+/// Somebody whom a wavefront may touch.
+#[derive(Clone, Copy, Debug)]
+pub struct Recipient {
+    /// Who.
+    pub to: AuvId,
+    /// Its way there.
+    pub flight: Flight,
+}
+
+/// A wavefront that leaves.
+#[derive(Clone, Copy, Debug)]
+struct Departure {
+    number: u64,
+    /// Nobody moved farther than this since the grid was sorted.
+    moved_m: f64,
+    /// How many may ever notice it.
+    within: u32,
+}
+
 impl Medium {
     /// The medium of a run; `vehicles` are all of its AUVs, newborn.
     pub fn new(scenario: &Scenario, water: &Water, vehicles: &[Vehicle]) -> Self {
         let greatest = |of: fn(&Vehicle) -> f64| vehicles.iter().map(of).fold(0.0, f64::max);
-        match (&scenario.environment.level, &water.column) {
-            (Level::Sea(sea), Some(column)) => Self::Sea(Box::new(Sea::new(scenario, sea, column, vehicles))),
-            _ => Self::Ideal(Ideal::new(
-                water.sound_speed_m_s,
-                greatest(|vehicle| vehicle.born.modem.range_m),
-                greatest(|vehicle| vehicle.ground_speed_m_s),
-                scenario.faults.iter().map(|&Fault::Kidnap { auv, .. }| AuvId(auv)).collect(),
-            )),
+        let (level, receivers) = match (&scenario.environment.level, &water.column) {
+            (LevelModel::Sea(sea), Some(column)) => {
+                let listeners = Listener::all(scenario, sea, vehicles).map(Box::new).map(Some);
+                let receivers = listeners.map(|listener| Receiver { flights: Vec::new(), listener });
+                (Level::Sea(Box::new(Sea::new(scenario, sea, column))), receivers.collect())
+            }
+            _ => {
+                let ideal = Ideal::new(
+                    water.sound_speed_m_s,
+                    greatest(|vehicle| vehicle.born.modem.range_m),
+                    greatest(|vehicle| vehicle.ground_speed_m_s),
+                    scenario.faults.iter().map(|&Fault::Kidnap { auv, .. }| AuvId(auv)).collect(),
+                );
+                (Level::Ideal(ideal), vehicles.iter().map(|_| Receiver::default()).collect())
+            }
+        };
+        let (wavefronts, departures, spread) = (Wavefronts::default(), Vec::new(), Vec::new());
+        Self { level, wavefronts, receivers, departures, spread }
+    }
+
+    /// Whether the modem of `auv` has heard nothing between `since` and `now`, up to which all motion is settled and all earlier
+    /// emissions are known.
+    pub fn is_quiet(&mut self, auv: AuvId, since: SimTime, now: SimTime, vehicles: &mut [Vehicle]) -> bool {
+        let index = auv.0 as usize;
+        let Receiver { flights, listener } = &mut self.receivers[index];
+        match (&self.level, listener) {
+            (Level::Sea(sea), Some(listener)) => {
+                sea.listen(flights, listener, &mut vehicles[index], &self.wavefronts, now);
+                listener.is_quiet(since, now)
+            }
+            _ => true,
         }
     }
 
+    /// A wavefront leaves; since the grid was sorted, nobody moved farther than `moved_m`.
+    pub fn emit(&mut self, wavefront: Wavefront, moved_m: f64) {
+        self.departures.push(Departure { number: self.wavefronts.next(), moved_m, within: 0 });
+        self.wavefronts.leaves(wavefront);
+    }
+
+    /// Sends all that was emitted since the last time to all who may hear it, and tells `departed` of each how many surely do
+    /// not, in the order in which it was emitted.
+    pub fn spread(&mut self, vehicles: &[Vehicle], grid: &Grid, mut departed: impl FnMut(&Wavefront, u32)) {
+        let Self { level, wavefronts, receivers, departures, spread } = self;
+        spread.resize_with(shares_of(departures.len()), Vec::new);
+        // Who may hear a ping does not depend on other pings.
+        let mut alone = vec![(); departures.len()];
+        share_out(departures, &mut alone, spread, |departures, _, recipients| {
+            recipients.clear();
+            for Departure { number, moved_m, within } in departures {
+                let near = (grid, *moved_m);
+                *within = level.spread(*number, wavefronts.get(*number), vehicles, near, recipients);
+            }
+        });
+        for Recipient { to, flight } in spread.iter().flatten() {
+            receivers[to.0 as usize].flights.push(*flight);
+        }
+        for Departure { number, within, .. } in departures.drain(..) {
+            departed(wavefronts.get(number), vehicles.len() as u32 - 1 - within);
+        }
+    }
+
+    /// Wavefronts on their way, counted once for each receiver.
+    pub fn in_flight(&self) -> u64 {
+        self.receivers.iter().map(Receiver::in_flight).sum()
+    }
+}
+
+impl Level {
     /// How far away from an emission anyone may be who is touched by it, in metres.
     pub fn farthest_m(&self) -> f64 {
         match self {
@@ -52,44 +148,53 @@ impl Medium {
         }
     }
 
-    /// Whether the modem of `auv` has heard nothing between `since` and `now`, up to which all motion is settled and all earlier
-    /// emissions are known.
-    pub fn is_quiet(&mut self, auv: AuvId, since: SimTime, now: SimTime, vehicles: &mut [Vehicle]) -> bool {
-        match self {
-            Self::Ideal(_) => true,
-            Self::Sea(sea) => sea.is_quiet(auv, since, now, vehicles),
-        }
-    }
-
-    /// Sends a wavefront to all who may hear it; returns how many surely do not.
-    ///
-    /// `grid` holds all vehicles where they were at a moment since which none moved farther than `moved_m`.
-    pub fn emit(
-        &mut self,
-        wavefront: &Arc<Wavefront>,
-        vehicles: &mut [Vehicle],
-        grid: &Grid,
-        moved_m: f64,
+    /// Adds all whom a wavefront may touch to `recipients`; returns how many may ever notice it.
+    fn spread(
+        &self,
+        number: u64,
+        wavefront: &Wavefront,
+        vehicles: &[Vehicle],
+        near: (&Grid, f64),
+        recipients: &mut Vec<Recipient>,
     ) -> u32 {
         match self {
-            Self::Ideal(ideal) => ideal.emit(wavefront, vehicles, grid, moved_m),
-            Self::Sea(sea) => sea.emit(wavefront, vehicles, grid, moved_m),
+            Self::Ideal(ideal) => ideal.spread(number, wavefront, vehicles, near, recipients),
+            Self::Sea(sea) => sea.spread(number, wavefront, vehicles, near, recipients),
         }
     }
 
-    /// Adds all that is settled before `to` to `told`, in no particular order.
-    pub fn arrive(&mut self, to: SimTime, vehicles: &mut [Vehicle], told: &mut Vec<Told>) {
-        match self {
-            Self::Ideal(ideal) => ideal.arrive(to, vehicles, told),
-            Self::Sea(sea) => sea.arrive(to, vehicles, told),
+    /// Adds all that is settled at one receiver before `to` to `told`, in no particular order.
+    pub fn hear(
+        &self,
+        receiver: &mut Receiver,
+        vehicle: &mut Vehicle,
+        wavefronts: &Wavefronts,
+        to: SimTime,
+        told: &mut Vec<Told>,
+    ) {
+        let Receiver { flights, listener } = receiver;
+        match (self, listener) {
+            (Self::Ideal(ideal), _) => ideal.hear(flights, vehicle, wavefronts, to, told),
+            (Self::Sea(sea), Some(listener)) => {
+                sea.listen(flights, listener, vehicle, wavefronts, to);
+                told.append(&mut listener.told);
+            }
+            (Self::Sea(_), None) => {}
         }
     }
+}
 
-    /// Wavefronts on their way, counted once for each receiver.
-    pub fn in_flight(&self) -> u64 {
-        match self {
-            Self::Ideal(ideal) => ideal.in_flight(),
-            Self::Sea(sea) => sea.in_flight(),
+impl Receiver {
+    /// The number of the earliest wavefront that it waits for.
+    pub fn waits_for(&self) -> Option<u64> {
+        let flights = self.flights.iter().map(|flight| flight.wavefront);
+        flights.chain(self.listener.iter().flat_map(|listener| listener.waits_for())).min()
+    }
+
+    fn in_flight(&self) -> u64 {
+        match &self.listener {
+            Some(listener) => listener.unsettled() as u64,
+            None => self.flights.len() as u64,
         }
     }
 }

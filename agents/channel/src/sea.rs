@@ -4,27 +4,23 @@
 mod crossing;
 mod listener;
 
-use std::sync::Arc;
-
 use shoal_bus::message::AuvId;
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Boundary, Fate, LossReason, SoundPath};
-use shoal_scenario::LISTEN_MAX_NS;
-use shoal_scenario::model::{MediumAccess, PhysicalLayer, Scenario, Sea as SeaModel};
+use shoal_scenario::model::{PhysicalLayer, Scenario, Sea as SeaModel};
 
 use crate::acoustics::density::sea_water_density_kg_m3;
 use crate::acoustics::ray::{Ray, WaterColumn};
 use crate::acoustics::reflection::{FluidBottom, SurfaceLoss};
-use crate::budget::{self, Link};
-use crate::draw::{Draws, Purpose};
+use crate::budget::Link;
 use crate::grid::Grid;
-use crate::reception::{Ear, EarSettings};
-use crate::sound::{Told, Wavefront};
+use crate::medium::Recipient;
+use crate::sound::{Flight, Told, Wavefront, Wavefronts};
 use crate::vehicle::Vehicle;
 
-use self::listener::Listener;
+pub use self::listener::Listener;
 
-/// All sound in the sea.
+/// The sea, and every modem's way with every other.
 pub struct Sea {
     water: SeaWater,
     /// `links[emitter's group][receiver's group]`.
@@ -33,8 +29,6 @@ pub struct Sea {
     farthest_m: f64,
     layers: Vec<Option<PhysicalLayer>>,
     paths: Vec<SoundPath>,
-    listeners: Vec<Listener>,
-    told: Vec<Told>,
 }
 
 /// What sound meets on its way, whoever sends it.
@@ -104,9 +98,9 @@ fn paths(bounces_max: u8) -> Vec<SoundPath> {
 }
 
 /// A packet that, as is clear when it leaves, will never be decoded there.
-fn lost(wavefront: &Arc<Wavefront>, to: AuvId, reason: LossReason, range_m: f64) -> Told {
+fn lost(number: u64, wavefront: &Wavefront, to: AuvId, reason: LossReason, range_m: f64) -> Told {
     let fate = Fate::lost(Some(to), reason, range_m);
-    Told { at: wavefront.emitted, to, wavefront: Arc::clone(wavefront), fate, stamp: None, incidence: None }
+    Told { at: wavefront.emitted, wavefront: number, fate, stamp: None, incidence: None }
 }
 
 /// The link between two groups; none when either's modem has no physical layer.
@@ -115,8 +109,8 @@ fn link(sea: &SeaModel, emitter: Option<&PhysicalLayer>, receiver: Option<&Physi
 }
 
 impl Sea {
-    /// The sea of a run; `vehicles` are all of its AUVs, newborn. Every group's modem has a physical layer.
-    pub fn new(scenario: &Scenario, sea: &SeaModel, column: &WaterColumn, vehicles: &[Vehicle]) -> Self {
+    /// The sea of a run. Every group's modem has a physical layer.
+    pub fn new(scenario: &Scenario, sea: &SeaModel, column: &WaterColumn) -> Self {
         // A validated scenario has a physical layer for every group at level `sea`; a group without one would be mute and deaf.
         let layers: Vec<_> = scenario.groups.iter().map(|group| group.modem.physical).collect();
         let links: Vec<Vec<Option<Link>>> = layers
@@ -126,21 +120,6 @@ impl Sea {
             })
             .collect();
         let farthest_m = links.iter().flatten().flatten().fold(0.0, |far: f64, link| far.max(link.floor_m));
-        let listener = |vehicle: &Vehicle| {
-            let group = &scenario.groups[usize::from(vehicle.born.group)];
-            let ear = group.modem.physical.map(|physical| {
-                let listens = matches!(group.modem.access, MediumAccess::Csma { .. });
-                let settings = EarSettings {
-                    noise_db: budget::noise_db(sea, &physical),
-                    physical,
-                    fading: sea.fading,
-                    sense_ns: if listens { LISTEN_MAX_NS } else { 0 },
-                };
-                let auv = vehicle.born.auv;
-                Ear::new(settings, Draws::new(scenario.seed, Purpose::Reception, auv, scenario.noise))
-            });
-            Listener::new(vehicle.born.auv, ear, group.modem.duty_cycle, vehicle.born.modem.sound_speed_m_s)
-        };
         let (slowest_m_s, _) = column.profile().speed_bounds_m_s(f64::NEG_INFINITY, f64::INFINITY);
         Self {
             water: SeaWater {
@@ -161,8 +140,6 @@ impl Sea {
             farthest_m,
             layers,
             paths: paths(sea.bounces_max),
-            listeners: vehicles.iter().map(listener).collect(),
-            told: Vec::new(),
         }
     }
 
@@ -177,69 +154,100 @@ impl Sea {
         self.farthest_m
     }
 
-    /// Sends a wavefront to all whom it may touch; returns how many are too far away to ever notice it.
-    pub fn emit(
-        &mut self,
-        wavefront: &Arc<Wavefront>,
-        vehicles: &mut [Vehicle],
-        grid: &Grid,
-        moved_m: f64,
+    /// Adds all whom a wavefront may touch to `recipients`, its emitter among them; returns how many may ever notice it.
+    ///
+    /// `grid` holds all vehicles where they were at some moment since which none moved farther than `moved_m`.
+    pub fn spread(
+        &self,
+        number: u64,
+        wavefront: &Wavefront,
+        vehicles: &[Vehicle],
+        (grid, moved_m): (&Grid, f64),
+        recipients: &mut Vec<Recipient>,
     ) -> u32 {
-        let emitter_group = usize::from(vehicles[wavefront.from.0 as usize].born.group);
-        if let Some(ear) = &mut self.listeners[wavefront.from.0 as usize].ear {
-            ear.emit(wavefront.emitted, wavefront.emitted + wavefront.packet_ns);
-        }
+        let mut send = |to| {
+            let flight = Flight { wavefront: number, earliest: wavefront.emitted };
+            recipients.push(Recipient { to, flight });
+        };
+        send(wavefront.from);
         let mut within = 0;
         for (index, _) in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
             let receiver = &vehicles[index];
             if receiver.born.auv == wavefront.from {
                 continue;
             }
-            let Some(link) = &self.links[emitter_group][usize::from(receiver.born.group)] else { continue };
-            let place_m = receiver.body.position_at(wavefront.emitted);
-            let distance_m = (place_m - wavefront.origin_m).norm();
-            if distance_m > link.floor_m {
-                let nominal_m =
-                    self.links[emitter_group][emitter_group].as_ref().map_or(0.0, |own| own.reach_m);
-                if !link.known && distance_m <= nominal_m {
-                    within += 1;
-                    self.told.push(lost(wavefront, receiver.born.auv, LossReason::Band, distance_m));
+            let distance_m = (receiver.body.position_at(wavefront.emitted) - wavefront.origin_m).norm();
+            let touch = self.touch(wavefront, receiver, distance_m);
+            if let Some((_, touch)) = touch {
+                within += u32::from(touch != Touch::Disturbs);
+                send(receiver.born.auv);
+            }
+        }
+        within
+    }
+
+    /// What a wavefront is to a receiver who was `distance_m` away when it left, and how their modems are linked.
+    fn touch(&self, wavefront: &Wavefront, receiver: &Vehicle, distance_m: f64) -> Option<(&Link, Touch)> {
+        let links = &self.links[usize::from(wavefront.group)];
+        let link = links[usize::from(receiver.born.group)].as_ref()?;
+        if distance_m > link.floor_m {
+            let nominal_m = links[usize::from(wavefront.group)].as_ref().map_or(0.0, |own| own.reach_m);
+            return (!link.known && distance_m <= nominal_m).then_some((link, Touch::OtherBand));
+        }
+        let touch = if distance_m > link.reach_m { Touch::Disturbs } else { Touch::Reaches };
+        Some((link, touch))
+    }
+
+    /// Lets one receiver take up the wavefronts that left for it, and settles what can be settled before `horizon`.
+    pub fn listen(
+        &self,
+        left: &mut Vec<Flight>,
+        listener: &mut Listener,
+        vehicle: &mut Vehicle,
+        wavefronts: &Wavefronts,
+        horizon: SimTime,
+    ) {
+        for Flight { wavefront: number, .. } in left.drain(..) {
+            self.take_up(number, wavefronts.get(number), listener, vehicle);
+        }
+        listener.listen(horizon, vehicle, &self.water, wavefronts);
+    }
+
+    fn take_up(&self, number: u64, wavefront: &Wavefront, listener: &mut Listener, receiver: &Vehicle) {
+        let to = receiver.born.auv;
+        if to == wavefront.from {
+            return listener.emit(wavefront);
+        }
+        let place_m = receiver.body.position_at(wavefront.emitted);
+        let distance_m = (place_m - wavefront.origin_m).norm();
+        let Some((link, touch)) = self.touch(wavefront, receiver, distance_m) else { return };
+        let reason = match touch {
+            Touch::Disturbs => {
+                let level_db = link.level_db(distance_m, 0.0);
+                return listener.disturb(wavefront, level_db, distance_m, &self.water);
+            }
+            Touch::OtherBand => LossReason::Band,
+            Touch::Reaches => {
+                let speed_ratio = receiver.ground_speed_m_s / self.water.slowest_m_s;
+                let (paths, water) = (&self.paths, &self.water);
+                let packet = (number, wavefront);
+                if listener.await_packet(packet, paths, link, water, speed_ratio, place_m) {
+                    return;
                 }
-                continue;
+                LossReason::Shadow
             }
-            let listener = &mut self.listeners[index];
-            if distance_m > link.reach_m {
-                listener.disturb(wavefront, link.level_db(distance_m, 0.0), distance_m, &self.water);
-                continue;
-            }
-            within += 1;
-            let speed_ratio = receiver.ground_speed_m_s / self.water.slowest_m_s;
-            if !listener.await_packet(wavefront, &self.paths, link, &self.water, speed_ratio, place_m) {
-                self.told.push(lost(wavefront, receiver.born.auv, LossReason::Shadow, distance_m));
-            }
-        }
-        vehicles.len() as u32 - 1 - within
+        };
+        listener.told.push(lost(number, wavefront, to, reason, distance_m));
     }
+}
 
-    /// Whether the modem of `auv` has heard nothing, and not emitted, between `since` and `now`.
-    pub fn is_quiet(&mut self, auv: AuvId, since: SimTime, now: SimTime, vehicles: &mut [Vehicle]) -> bool {
-        let index = auv.0 as usize;
-        let listener = &mut self.listeners[index];
-        listener.listen(now, &mut vehicles[index], &self.water, &mut self.told);
-        listener.ear.as_ref().is_none_or(|ear| !ear.busy(since, now))
-    }
-
-    /// Adds all that is settled before `to` to `told`, in no particular order.
-    pub fn arrive(&mut self, to: SimTime, vehicles: &mut [Vehicle], told: &mut Vec<Told>) {
-        told.append(&mut self.told);
-        for (listener, vehicle) in self.listeners.iter_mut().zip(vehicles) {
-            listener.listen(to, vehicle, &self.water, told);
-        }
-    }
-
-    /// Packets that are not settled, counted once for each receiver.
-    pub fn in_flight(&self) -> u64 {
-        self.listeners.iter().map(|listener| listener.unsettled() as u64).sum::<u64>()
-            + self.told.len() as u64
-    }
+/// What a wavefront may be to a receiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Touch {
+    /// Too faint to be noticed, but energy that others have to stand out from.
+    Disturbs,
+    /// Near enough, but not in the receiver's band.
+    OtherBand,
+    /// Near enough to be noticed, if a path leads there.
+    Reaches,
 }

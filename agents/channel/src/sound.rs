@@ -4,7 +4,7 @@
 //! emission, of the receiver at reception (seed 001, equations 5.2 ii and 5.4). The left side changes more slowly than the right
 //! as long as bodies are slower than sound, so there is one solution, and where it lies can be bracketed at the emission.
 
-use std::sync::Arc;
+use std::collections::VecDeque;
 
 use shoal_bus::message::AuvId;
 use shoal_bus::ping::Frame;
@@ -22,6 +22,8 @@ pub const ARRIVAL_TOLERANCE_S: f64 = 5e-9;
 pub struct Wavefront {
     /// Who emitted it.
     pub from: AuvId,
+    /// The emitter's group, which has its make of modem.
+    pub group: u16,
     /// How many pings the emitter had emitted before.
     pub sequence: u32,
     /// True time of emission.
@@ -42,15 +44,45 @@ pub struct Wavefront {
     pub is_false: bool,
 }
 
+/// All wavefronts that someone may still have to do with, numbered in the order in which they left.
+#[derive(Debug, Default)]
+pub struct Wavefronts {
+    first: u64,
+    under_way: VecDeque<Wavefront>,
+}
+
+impl Wavefronts {
+    /// The number of the next one to leave.
+    pub fn next(&self) -> u64 {
+        self.first + self.under_way.len() as u64
+    }
+
+    /// One more leaves.
+    pub fn leaves(&mut self, wavefront: Wavefront) {
+        self.under_way.push_back(wavefront);
+    }
+
+    /// The wavefront of this number, which is not forgotten.
+    pub fn get(&self, number: u64) -> &Wavefront {
+        // Whoever waits for a wavefront keeps it from being forgotten.
+        &self.under_way[(number - self.first) as usize]
+    }
+
+    /// Forgets all with lower numbers than this, for which nobody waits any more.
+    pub fn forget_before(&mut self, number: u64) {
+        let forgotten = number.clamp(self.first, self.next()) - self.first;
+        self.under_way.drain(..forgotten as usize);
+        self.first += forgotten;
+    }
+}
+
 /// What one receiver makes of one wavefront.
 #[derive(Debug)]
 pub struct Told {
     /// True time at which it is settled: at level `sea`, the packet's end.
     pub at: SimTime,
-    /// The receiver.
-    pub to: AuvId,
-    /// The wavefront.
-    pub wavefront: Arc<Wavefront>,
+    /// Number of the wavefront.
+    pub wavefront: u64,
     /// Heard or lost.
     pub fate: Fate,
     /// What the receiver's clock read when the packet began, if that was not at `at`.
@@ -60,12 +92,10 @@ pub struct Told {
 }
 
 /// A wavefront on its way to one receiver.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Flight {
-    /// The wavefront.
-    pub wavefront: Arc<Wavefront>,
-    /// The receiver.
-    pub to: AuvId,
+    /// Number of the wavefront.
+    pub wavefront: u64,
     /// It does not arrive before this.
     pub earliest: SimTime,
 }
@@ -82,89 +112,70 @@ pub struct Arrival {
 }
 
 impl Wavefront {
-    /// The flight to a receiver now (at the emission) `distance_m` away that moves at most at `speed_m_s`; `None` when it
-    /// stays out of range whatever it does.
-    pub fn towards(
-        self: &Arc<Self>,
-        to: AuvId,
-        distance_m: f64,
-        speed_m_s: f64,
-        sound_speed_m_s: f64,
-    ) -> Option<Flight> {
-        if distance_m > reach_m(self.range_m, speed_m_s, sound_speed_m_s) {
-            return None;
-        }
-        Some(self.flight(to, distance_m, speed_m_s, sound_speed_m_s))
-    }
-
-    /// The flight to a receiver in range that is now no nearer than `distance_m` and moves at most at `speed_m_s`.
-    pub fn flight(
-        self: &Arc<Self>,
-        to: AuvId,
-        distance_m: f64,
-        speed_m_s: f64,
-        sound_speed_m_s: f64,
-    ) -> Flight {
+    /// When it may reach, at the soonest, a receiver in range that is now (at the emission) no nearer than `distance_m` and moves at
+    /// most at `speed_m_s`.
+    pub fn earliest_at(&self, distance_m: f64, speed_m_s: f64, sound_speed_m_s: f64) -> SimTime {
         let travel_s = distance_m / (sound_speed_m_s + speed_m_s);
-        let earliest = self.emitted + (travel_s * 1e9) as i64 + -1;
-        Flight { wavefront: Arc::clone(self), to, earliest: earliest.max(self.emitted) }
+        (self.emitted + (travel_s * 1e9) as i64 + -1).max(self.emitted)
     }
-}
 
-/// How far from the emission a receiver may be at that moment and still come into range in time, in metres.
-pub fn reach_m(range_m: f64, speed_m_s: f64, sound_speed_m_s: f64) -> f64 {
-    range_m * (1.0 + speed_m_s / sound_speed_m_s) * (1.0 + 1e-9)
-}
-
-impl Flight {
-    /// When and where it arrives, if that is before `horizon`, up to which the receiver's motion is settled.
-    pub fn arrival(&self, receiver: &Body, sound_speed_m_s: f64, horizon: SimTime) -> Option<Arrival> {
-        for segment in receiver.segments_from(self.earliest) {
+    /// When and where it arrives, if that is before `horizon`, up to which the receiver's motion is settled. It does not arrive
+    /// before `earliest`.
+    pub fn arrival(
+        &self,
+        receiver: &Body,
+        earliest: SimTime,
+        sound_speed_m_s: f64,
+        horizon: SimTime,
+    ) -> Option<Arrival> {
+        for segment in receiver.segments_from(earliest) {
             if segment.start >= horizon {
                 return None;
             }
             let whole_s = (segment.end - segment.start) as f64 * 1e-9;
-            if self.ahead_m(segment, whole_s, sound_speed_m_s) > 0.0 {
+            if self.ahead(segment, whole_s, sound_speed_m_s).by_m > 0.0 {
                 // Sound has not caught up by the end of this stretch, nor will it have if the stretch is cut short.
                 continue;
             }
             let elapsed_s = self.meet(segment, sound_speed_m_s);
             let at = (segment.start + (elapsed_s * 1e9).ceil() as i64).min(segment.end);
-            let range_m = (segment.position_after(elapsed_s) - self.wavefront.origin_m).norm();
+            let range_m = (segment.position_after(elapsed_s) - self.origin_m).norm();
             return (at < horizon).then_some(Arrival { at, range_m, travel_s: range_m / sound_speed_m_s });
         }
         None
     }
 
-    /// By how many metres the receiver is ahead of the wavefront, `elapsed_s` seconds after the start of `segment`. Falls
-    /// strictly, because bodies are slower than sound.
-    fn ahead_m(&self, segment: &Segment, elapsed_s: f64, sound_speed_m_s: f64) -> f64 {
-        let sound_s = (segment.start - self.wavefront.emitted) as f64 * 1e-9 + elapsed_s;
-        (segment.position_after(elapsed_s) - self.wavefront.origin_m).norm() - sound_speed_m_s * sound_s
+    /// How far the receiver is ahead of the wavefront, `elapsed_s` seconds after the start of `segment`. Falls strictly, because
+    /// bodies are slower than sound.
+    fn ahead(&self, segment: &Segment, elapsed_s: f64, sound_speed_m_s: f64) -> Ahead {
+        let sound_s = (segment.start - self.emitted) as f64 * 1e-9 + elapsed_s;
+        let ray_m = segment.position_after(elapsed_s) - self.origin_m;
+        let range_m = ray_m.norm();
+        Ahead { by_m: range_m - sound_speed_m_s * sound_s, ray_m, range_m }
     }
 
     /// Seconds after the start of `segment` at which sound and receiver meet, which is before its end.
     ///
     /// The search spans the stretch as it was planned: a setpoint that is decided later must not change the last bits.
     fn meet(&self, segment: &Segment, sound_speed_m_s: f64) -> f64 {
-        if self.ahead_m(segment, 0.0, sound_speed_m_s) <= 0.0 {
+        let mut elapsed_s = 0.0;
+        let mut ahead = self.ahead(segment, elapsed_s, sound_speed_m_s);
+        if ahead.by_m <= 0.0 {
             return 0.0;
         }
         let (mut before_s, mut after_s) = (0.0, segment.planned_length_s());
-        let mut elapsed_s = 0.0;
         // Newton's steps shrink quadratically, by (body speed / sound speed)² or better; one that leaves the bracket is
         // replaced by its middle.
         for _ in 0..100 {
-            let ahead_m = self.ahead_m(segment, elapsed_s, sound_speed_m_s);
-            if ahead_m > 0.0 {
+            if ahead.by_m > 0.0 {
                 before_s = elapsed_s
             } else {
                 after_s = elapsed_s
             }
-            let ray_m = segment.position_after(elapsed_s) - self.wavefront.origin_m;
             let velocity_m_s = segment.ground_velocity_m_s + segment.acceleration_m_s2 * elapsed_s;
-            let opening_m_s = ray_m.try_normalize(0.0).map_or(0.0, |ray| ray.dot(&velocity_m_s));
-            let newton_s = elapsed_s + ahead_m / (sound_speed_m_s - opening_m_s);
+            let opening_m_s =
+                if ahead.range_m > 0.0 { (ahead.ray_m / ahead.range_m).dot(&velocity_m_s) } else { 0.0 };
+            let newton_s = elapsed_s + ahead.by_m / (sound_speed_m_s - opening_m_s);
             let next_s =
                 if (before_s..=after_s).contains(&newton_s) { newton_s } else { 0.5 * (before_s + after_s) };
             let step_s = next_s - elapsed_s;
@@ -172,9 +183,25 @@ impl Flight {
             if step_s.abs() < 1e-12 {
                 break;
             }
+            ahead = self.ahead(segment, elapsed_s, sound_speed_m_s);
         }
         elapsed_s
     }
+}
+
+/// A receiver before a wavefront.
+struct Ahead {
+    /// By how many metres.
+    by_m: f64,
+    /// From the emission to the receiver, in metres.
+    ray_m: Vec3,
+    /// Length of that.
+    range_m: f64,
+}
+
+/// How far from the emission a receiver may be at that moment and still come into range in time, in metres.
+pub fn reach_m(range_m: f64, speed_m_s: f64, sound_speed_m_s: f64) -> f64 {
+    range_m * (1.0 + speed_m_s / sound_speed_m_s) * (1.0 + 1e-9)
 }
 
 #[cfg(test)]
@@ -197,9 +224,10 @@ mod tests {
         Body::new(&kind, Vec3::zeros(), 10_000_000, position_m, attitude, (seed, AuvId(0), Noise::Uniform))
     }
 
-    fn wavefront(emitted_ns: i64) -> Arc<Wavefront> {
-        Arc::new(Wavefront {
+    fn wavefront(emitted_ns: i64) -> Wavefront {
+        Wavefront {
             from: AuvId(1),
+            group: 0,
             sequence: 0,
             emitted: SimTime::from_ns(emitted_ns),
             packet_ns: 0,
@@ -209,7 +237,7 @@ mod tests {
             box_width_m: 0.0,
             range_m: 1e4,
             is_false: false,
-        })
+        }
     }
 
     #[test]
@@ -223,8 +251,8 @@ mod tests {
             body.integrate(horizon);
             let wavefront = wavefront(777_777_777);
             let distance_m = (body.at(wavefront.emitted).position_m - wavefront.origin_m).norm();
-            let flight = wavefront.towards(AuvId(0), distance_m, 14.0, sound_speed_m_s).unwrap();
-            let arrival = flight.arrival(&body, sound_speed_m_s, horizon).unwrap();
+            let earliest = wavefront.earliest_at(distance_m, 14.0, sound_speed_m_s);
+            let arrival = wavefront.arrival(&body, earliest, sound_speed_m_s, horizon).unwrap();
 
             let ahead_m = |t: SimTime| {
                 let distance_m = (body.at(t).position_m - wavefront.origin_m).norm();
@@ -236,7 +264,7 @@ mod tests {
                 if ahead_m(middle) > 0.0 { before = middle } else { after = middle }
             }
             assert!((arrival.at - after).abs() <= 1, "{} {}", arrival.at, after);
-            assert!(arrival.at >= flight.earliest);
+            assert!(arrival.at >= earliest);
         }
     }
 
@@ -244,15 +272,16 @@ mod tests {
     fn the_horizon_hides_an_arrival_but_never_moves_it() {
         let mut settled = body(5, Vec3::new(60.0, 0.0, 0.0));
         settled.integrate(SimTime::from_ns(2_000_000_000));
-        let flight = wavefront(0).towards(AuvId(0), 57.1, 14.0, 100.0).unwrap();
-        let whole = flight.arrival(&settled, 100.0, SimTime::from_ns(2_000_000_000)).unwrap();
+        let wavefront = wavefront(0);
+        let earliest = wavefront.earliest_at(57.1, 14.0, 100.0);
+        let whole = wavefront.arrival(&settled, earliest, 100.0, SimTime::from_ns(2_000_000_000)).unwrap();
         let mut growing = body(5, Vec3::new(60.0, 0.0, 0.0));
         let mut seen = None;
         for window in 1..=400 {
             let horizon = SimTime::from_ns(window * 5_000_000);
             growing.integrate(horizon);
             if seen.is_none() {
-                seen = flight.arrival(&growing, 100.0, horizon);
+                seen = wavefront.arrival(&growing, earliest, 100.0, horizon);
             }
             growing.forget_before(horizon);
         }
@@ -269,9 +298,10 @@ mod tests {
         }
         let horizon = SimTime::from_ns(60_000_000_000);
         body.integrate(horizon);
-        let flight = wavefront(0).towards(AuvId(0), 1_797.0, 14.0, 60.0).unwrap();
-        let arrival = flight.arrival(&body, 60.0, horizon).unwrap();
-        let distance_m = (body.at(arrival.at).position_m - flight.wavefront.origin_m).norm();
+        let wavefront = wavefront(0);
+        let earliest = wavefront.earliest_at(1_797.0, 14.0, 60.0);
+        let arrival = wavefront.arrival(&body, earliest, 60.0, horizon).unwrap();
+        let distance_m = (body.at(arrival.at).position_m - wavefront.origin_m).norm();
         assert!((distance_m / 60.0 - arrival.at.as_s()).abs() < 2e-9);
     }
 
@@ -279,8 +309,9 @@ mod tests {
     fn zero_range_is_heard_at_once() {
         let mut body = body(2, Vec3::new(3.0, -2.0, -1.0));
         body.integrate(SimTime::from_ns(100_000_000));
-        let flight = wavefront(0).towards(AuvId(0), 0.0, 14.0, 100.0).unwrap();
-        let arrival = flight.arrival(&body, 100.0, SimTime::from_ns(50_000_000)).unwrap();
+        let wavefront = wavefront(0);
+        let earliest = wavefront.earliest_at(0.0, 14.0, 100.0);
+        let arrival = wavefront.arrival(&body, earliest, 100.0, SimTime::from_ns(50_000_000)).unwrap();
         assert_eq!((arrival.at, arrival.range_m), (SimTime::ZERO, 0.0));
     }
 }

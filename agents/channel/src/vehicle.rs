@@ -40,6 +40,8 @@ pub struct Vehicle {
     pub length_m: f64,
     /// Pings emitted so far.
     pub emitted: u32,
+    /// Pings that arrived and were decoded so far.
+    pub pings_heard: u64,
     /// End of its last packet, at the emitter.
     pub emits_until: SimTime,
     exposure: Exposure,
@@ -132,6 +134,7 @@ impl Vehicle {
             ground_speed_m_s,
             length_m,
             emitted: 0,
+            pings_heard: 0,
             emits_until: SimTime::ZERO,
             exposure,
             false_arrivals,
@@ -240,6 +243,7 @@ impl Vehicle {
         let stamp = stamp.unwrap_or_else(|| self.clock.read(at)) + error_ns + late_ns;
         let bearing =
             self.bearings.as_mut().zip(incidence).map(|(array, incidence)| array.sense(from, incidence));
+        self.pings_heard += 1;
         self.heard.push(HeardPing { stamp, at, from, frame, bearing, is_false });
     }
 
@@ -305,9 +309,10 @@ impl Vehicle {
             self.between.take().unwrap_or_else(|| self.truth_at(self.between_ticks()));
 
         let mut events = Vec::with_capacity(self.heard.len() + 4);
-        self.sensors.sense(stamp, at, &pose, &mut events);
+        // The sensors speak last, so that hardly anything is left to sort.
         self.hand_over_heard(stamp, at, &mut events);
         self.hand_over_held(stamp, at, &mut events);
+        self.sensors.sense(stamp, at, &pose, &mut events);
         events.sort_by_key(|event| (event.stamp, kind_rank(&event.sense)));
 
         let tick = Tick { index: self.next_tick, stamp, at, pose, between_position_m, between_offset_s };

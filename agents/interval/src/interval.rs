@@ -1,6 +1,7 @@
 //! The interval: what it is, how it is made, how it is measured.
 
 use crate::error::IntervalError;
+use crate::lanes;
 use crate::rounding::{add_down, add_up};
 use crate::set::larger;
 
@@ -80,6 +81,7 @@ impl Interval {
     /// assert_eq!(Interval::spanning(3.0, f64::NAN), Interval::ENTIRE);
     /// # Ok::<(), shoal_interval::IntervalError>(())
     /// ```
+    #[inline]
     pub fn spanning(one: f64, other: f64) -> Interval {
         if one.is_nan() || other.is_nan() {
             return Interval::ENTIRE;
@@ -101,13 +103,10 @@ impl Interval {
     /// ```
     #[inline]
     pub fn centred(mid: f64, radius: f64) -> Interval {
-        if !mid.is_finite() || radius.is_nan() {
-            return Interval::ENTIRE;
+        match lanes::centred(mid, radius) {
+            Some(interval) if radius >= 0.0 => interval,
+            _ => centred_with_care(mid, radius),
         }
-        if radius < 0.0 {
-            return Interval::EMPTY;
-        }
-        Interval { lower: add_down(mid, -radius), neg_upper: add_down(-mid, -radius) }
     }
 
     /// The interval with these bounds. The caller has made sure that they are not NaN and that at least one real number
@@ -219,6 +218,18 @@ impl Interval {
     pub const fn is_point(self) -> bool {
         self.lower == -self.neg_upper
     }
+}
+
+/// [`Interval::centred`], whatever the arguments are.
+#[cold]
+fn centred_with_care(mid: f64, radius: f64) -> Interval {
+    if !mid.is_finite() || radius.is_nan() {
+        return Interval::ENTIRE;
+    }
+    if radius < 0.0 {
+        return Interval::EMPTY;
+    }
+    Interval { lower: add_down(mid, -radius), neg_upper: add_down(-mid, -radius) }
 }
 
 #[cfg(test)]

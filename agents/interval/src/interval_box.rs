@@ -1,6 +1,7 @@
 //! The box: a product of intervals.
 
 use crate::interval::Interval;
+use crate::lanes;
 use nalgebra::SVector;
 use std::ops::{BitAnd, BitOr, Index, IndexMut};
 
@@ -44,6 +45,24 @@ impl<const N: usize> IntervalBox<N> {
     /// All vectors whose every coordinate is within `radius` of that of `mid`, by the rules of [`Interval::centred`].
     pub fn centred(mid: &SVector<f64, N>, radius: f64) -> IntervalBox<N> {
         IntervalBox::from(std::array::from_fn(|axis| Interval::centred(mid[axis], radius)))
+    }
+
+    /// The smallest box that holds both vectors, by the rules of [`Interval::spanning`] along each axis.
+    ///
+    /// ```
+    /// use nalgebra::Vector2;
+    /// use shoal_interval::{Interval, IntervalBox};
+    ///
+    /// let leg_m = IntervalBox::spanning(&Vector2::new(3.0, 0.0), &Vector2::new(-1.0, 2.0));
+    /// assert_eq!(leg_m[0], Interval::new(-1.0, 3.0)?);
+    /// # Ok::<(), shoal_interval::IntervalError>(())
+    /// ```
+    #[inline]
+    pub fn spanning(one: &SVector<f64, N>, other: &SVector<f64, N>) -> IntervalBox<N> {
+        let (one, other) = (std::array::from_fn(|axis| one[axis]), std::array::from_fn(|axis| other[axis]));
+        let sides = lanes::spanning(&one, &other);
+        let with_care = || std::array::from_fn(|axis| Interval::spanning(one[axis], other[axis]));
+        IntervalBox { sides: sides.unwrap_or_else(with_care) }
     }
 
     /// Whether no vector is in the box.

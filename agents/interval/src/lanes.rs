@@ -7,7 +7,7 @@
 
 use crate::interval::Interval;
 use crate::rounding::{ERROR_IS_EXACT_ABOVE_BITS, step_down_if};
-use crate::set::smaller;
+use crate::set::{larger, smaller};
 
 const SIGN_BIT: u64 = 1 << 63;
 /// The lowest bit of the exponent.
@@ -39,6 +39,22 @@ pub(crate) fn differences<const N: usize>(a: &[Interval; N], b: &[Interval; N]) 
     })
 }
 
+/// Everything within `radius` of `middle`; in doubt unless both are finite.
+#[inline(always)]
+pub(crate) fn centred(middle: f64, radius: f64) -> Option<Interval> {
+    each(|_| [sum(middle, -radius), sum(-middle, -radius)]).map(|[interval]| interval)
+}
+
+/// The smallest intervals that hold `one[i]` and `other[i]`, for all i; in doubt unless all are finite.
+#[inline(always)]
+pub(crate) fn spanning<const N: usize>(one: &[f64; N], other: &[f64; N]) -> Option<[Interval; N]> {
+    each(|index| {
+        let (one, other) = (one[index], other[index]);
+        let doubt = ((one + other).to_bits() & !SIGN_BIT) + EXPONENT_BIT;
+        [smaller(one, other), smaller(-one, -other)].map(|down| Rounded { down, doubt })
+    })
+}
+
 /// `a[i] * factor` for all i.
 #[inline(always)]
 pub(crate) fn products<const N: usize>(a: &[Interval; N], factor: Interval) -> Option<[Interval; N]> {
@@ -56,9 +72,9 @@ pub(crate) fn products<const N: usize>(a: &[Interval; N], factor: Interval) -> O
     // A factor that is not positive is the negative of one that is not negative.
     let is_negative = least < 0.0;
     let (least, most) = if is_negative { (neg_most, -least) } else { (least, -neg_most) };
+    let a = if is_negative { a.map(|interval| -interval) } else { *a };
     each(|index| {
         let [lower, neg_upper] = a[index].lower_bounds();
-        let (lower, neg_upper) = if is_negative { (neg_upper, lower) } else { (lower, neg_upper) };
         [lower, neg_upper].map(|bound| product(bound, if bound >= 0.0 { least } else { most }))
     })
 }
@@ -68,10 +84,9 @@ pub(crate) fn products<const N: usize>(a: &[Interval; N], factor: Interval) -> O
 pub(crate) fn squares<const N: usize>(a: &[Interval; N]) -> Option<[Interval; N]> {
     each(|index| {
         let [lower, neg_upper] = a[index].lower_bounds();
-        let larger = if lower > neg_upper { lower } else { neg_upper };
-        let smallest = if larger > 0.0 { larger } else { 0.0 };
+        let smallest = larger(larger(lower, neg_upper), 0.0);
         let neg_largest = smaller(lower, neg_upper);
-        [product(smallest, smallest), product(neg_largest, -neg_largest)]
+        [smallest, neg_largest].map(|bound| product(bound, bound.abs()))
     })
 }
 
@@ -104,12 +119,12 @@ fn product(a: f64, b: f64) -> Rounded {
     let product = a * b;
     let error = a.mul_add(b, -product);
     let size = product.to_bits() & !SIGN_BIT;
-    let is_zero = (a == 0.0) | (b == 0.0);
-    let below = if is_zero { 0 } else { size.wrapping_sub(ERROR_IS_EXACT_ABOVE_BITS) };
+    // All bits, or none where a factor is zero: then so is the product, exactly.
+    let kept = (-i64::from((a != 0.0) & (b != 0.0))).cast_unsigned();
     Rounded {
-        down: if is_zero { 0.0 } else { step_down_if(error < 0.0, product) },
+        down: f64::from_bits(step_down_if(error < 0.0, product).to_bits() & kept),
         // Zero times infinity is not a number.
-        doubt: (size + EXPONENT_BIT) | below,
+        doubt: (size + EXPONENT_BIT) | (size.wrapping_sub(ERROR_IS_EXACT_ABOVE_BITS) & kept),
     }
 }
 
@@ -117,3 +132,6 @@ fn product(a: f64, b: f64) -> Rounded {
 fn lesser(one: Rounded, other: Rounded) -> Rounded {
     Rounded { down: smaller(one.down, other.down), doubt: one.doubt | other.doubt }
 }
+
+#[cfg(test)]
+mod tests;

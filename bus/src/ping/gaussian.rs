@@ -19,8 +19,8 @@
 //! (Gershgorin).
 
 use super::{
-    EXPONENTS, FRAME_BYTES, Frame, FrameError, GAUSSIAN, TIME_UNIT_EXPONENT, binary_exponent, header, kind,
-    power_of_two, sender, signed,
+    EXPONENTS, FRAME_BYTES, Frame, FrameError, GAUSSIAN, TIME_UNIT_EXPONENT, binary_exponent, emission_s,
+    header, i24, kind, power_of_two, sender,
 };
 use crate::message::{AuvId, Bounds, BoundsBox};
 
@@ -133,10 +133,8 @@ impl GaussianPing {
         Ok(Self {
             sender: AuvId(u32::from(u16::from_le_bytes([bytes[1], bytes[2]]))),
             sequence: bytes[3],
-            emission_s: signed(&bytes[4..10]) as f64 * power_of_two(TIME_UNIT_EXPONENT),
-            position_m: std::array::from_fn(|axis| {
-                signed(&bytes[11 + 3 * axis..14 + 3 * axis]) as f64 * unit_m
-            }),
+            emission_s: emission_s(bytes),
+            position_m: std::array::from_fn(|axis| f64::from(i24(bytes, 11 + 3 * axis)) * unit_m),
             covariance: covariance.read(),
             velocity_m_s: std::array::from_fn(|axis| f64::from(bytes[28 + axis] as i8) * unit_m_s),
         })

@@ -8,10 +8,8 @@ use zenoh::bytes::ZBytes;
 use zenoh::pubsub::Subscriber;
 use zenoh::{Session, Wait};
 
-use super::frame::write_down;
 use super::member::{Awaits, Member};
 use super::{BUS, session, up_key};
-use crate::codec;
 use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, PROCESS_ENDED};
 use crate::message::{AuvId, Born, Sensed};
 use crate::os::raise_descriptor_limit;
@@ -34,6 +32,7 @@ pub struct ZenohFleet {
     post: Sender<Event>,
     session: Session,
     stall_limit: Duration,
+    waited: Duration,
     has_told_end: bool,
 }
 
@@ -101,6 +100,7 @@ impl ZenohFleet {
             post,
             session,
             stall_limit: STALL_LIMIT,
+            waited: Duration::ZERO,
             has_told_end: false,
         })
     }
@@ -161,6 +161,18 @@ impl ZenohFleet {
         Ok(())
     }
 
+    /// Waits until nobody is awaited any more, or until `deadline`.
+    fn wait_until(&mut self, answers: &mut Answers, deadline: Instant) -> Result<(), FleetError> {
+        let mut awaited = self.members.iter().filter(|member| member.is_awaited()).count();
+        while awaited > 0 {
+            match self.events.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
+                Ok(event) => awaited -= usize::from(self.take(&event, answers)?),
+                Err(_) => break,
+            }
+        }
+        Ok(())
+    }
+
     /// Takes in one event. Returns whether somebody is awaited no longer.
     fn take(&mut self, event: &Event, answers: &mut Answers) -> Result<bool, FleetError> {
         match event {
@@ -191,8 +203,7 @@ impl Fleet for ZenohFleet {
             let member = &mut self.members[index];
             member.sequence += 1;
             member.is_alive = true;
-            let message = codec::encode(&ToAuvRef::Born(born)).map_err(failed)?;
-            member.awaits = Awaits::Birth(write_down(member.sequence, &message));
+            member.awaits = Awaits::Birth(Box::new(born.clone()));
             if member.has_ended {
                 member.lose(PROCESS_ENDED, &mut answers.losses);
             }
@@ -213,15 +224,43 @@ impl Fleet for ZenohFleet {
             let index = self.index(batch.auv)?;
             let member = &mut self.members[index];
             if member.is_alive {
-                let message = codec::encode(&ToAuvRef::Sensed(&batch.items)).map_err(failed)?;
-                member.send_next(&message)?;
-                member.awaits = Awaits::Answers(batch.items.len());
+                member.send_batch(&batch.items)?;
             }
         }
         meanwhile();
+        let since = Instant::now();
         self.wait(&mut answers, self.stall_limit)?;
-        answers.acted.sort_by_key(|batch| batch.auv);
-        answers.losses.sort_by_key(|loss| loss.auv);
+        self.waited = since.elapsed();
+        answers.sort();
+        Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
+    }
+
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        let mut answers = Answers::default();
+        self.bury(&mut answers)?;
+        let mut unsent = Vec::new();
+        for batch in sensed.drain(..) {
+            let index = self.index(batch.auv)?;
+            let member = &mut self.members[index];
+            if member.is_awaited() {
+                unsent.push(batch);
+            } else if member.is_alive {
+                member.send_batch(&batch.items)?;
+            }
+        }
+        *sensed = unsent;
+        meanwhile();
+        self.wait_until(&mut answers, deadline)?;
+        answers.sort();
         Ok(answers)
     }
 
@@ -229,9 +268,8 @@ impl Fleet for ZenohFleet {
         if std::mem::replace(&mut self.has_told_end, true) {
             return;
         }
-        let Ok(message) = codec::encode(&ToAuvRef::End) else { return };
         for member in &mut self.members {
-            let is_told = member.is_alive && !member.has_ended && member.send_next(&message).is_ok();
+            let is_told = member.is_alive && !member.has_ended && member.send_next(&ToAuvRef::End).is_ok();
             member.awaits = if is_told { Awaits::End } else { Awaits::Nothing };
         }
         // Whoever does not hear of it in time ends with the connection.

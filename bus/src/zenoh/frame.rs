@@ -5,8 +5,8 @@ const UP_HEADER: usize = 1 + SEQUENCE;
 
 /// What a frame up is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// The AUV's subscription is declared.
+pub(crate) enum Kind {
+    /// The AUV's subscription is declared; the message is a [`Hello`](crate::protocol::Hello).
     Hello,
     /// Birth or end has arrived.
     Received,
@@ -16,15 +16,15 @@ pub(super) enum Kind {
 
 /// A frame up.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Up<'a> {
-    pub(super) kind: Kind,
+pub(crate) struct Up<'a> {
+    pub(crate) kind: Kind,
     /// Of the frame down that it answers.
-    pub(super) sequence: u64,
-    pub(super) message: &'a [u8],
+    pub(crate) sequence: u64,
+    pub(crate) message: &'a [u8],
 }
 
 impl<'a> Up<'a> {
-    pub(super) fn write(&self) -> Vec<u8> {
+    pub(crate) fn write(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(UP_HEADER + self.message.len());
         bytes.push(self.kind as u8);
         bytes.extend(self.sequence.to_le_bytes());
@@ -33,7 +33,7 @@ impl<'a> Up<'a> {
     }
 
     /// Takes a frame apart; `None` for bytes that are none.
-    pub(super) fn read(bytes: &'a [u8]) -> Option<Self> {
+    pub(crate) fn read(bytes: &'a [u8]) -> Option<Self> {
         let (kind, rest) = bytes.split_first()?;
         let (sequence, message) = rest.split_first_chunk()?;
         let kind = match kind {
@@ -47,7 +47,7 @@ impl<'a> Up<'a> {
 }
 
 /// A frame down.
-pub(super) fn write_down(sequence: u64, message: &[u8]) -> Vec<u8> {
+pub(crate) fn write_down(sequence: u64, message: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(SEQUENCE + message.len());
     bytes.extend(sequence.to_le_bytes());
     bytes.extend_from_slice(message);
@@ -55,7 +55,7 @@ pub(super) fn write_down(sequence: u64, message: &[u8]) -> Vec<u8> {
 }
 
 /// Takes a frame down apart; `None` when it is too short.
-pub(super) fn read_down(bytes: &[u8]) -> Option<(u64, &[u8])> {
+pub(crate) fn read_down(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let (sequence, message) = bytes.split_first_chunk()?;
     Some((u64::from_le_bytes(*sequence), message))
 }

@@ -14,6 +14,7 @@ use super::{BUS, down_key, session, up_key};
 use crate::codec;
 use crate::lockstep::{Batch, FromAuv, Link, LinkError, ToAuv, ToProcess};
 use crate::message::{Acted, AuvId};
+use crate::protocol::{Dialect, Hello};
 
 /// How often an AUV says hello until it is born.
 const HELLO_AGAIN: Duration = Duration::from_millis(100);
@@ -56,7 +57,7 @@ impl ZenohLink {
 
     /// Reports those in that are not born yet.
     fn hello(&self) -> Result<(), LinkError> {
-        let message = codec::encode(&FromAuv::Hello)?;
+        let message = Hello::new(Dialect::Binary).write();
         let mut unborn = self.members.iter().filter(|member| member.sequence.is_none());
         unborn.try_for_each(|member| member.send(Kind::Hello, 0, &message))
     }

@@ -272,6 +272,21 @@ impl Crew {
         processes
     }
 
+    /// Starts the AUVs of `count` that `bus_of` gives a bus to.
+    pub fn start_each(
+        &mut self,
+        bus_of: &dyn Fn(AuvId) -> Option<&'static str>,
+        count: u32,
+        arguments: &[&str],
+    ) -> Vec<(AuvId, u32)> {
+        let started = auvs(count).into_iter().filter_map(|auv| Some((auv, bus_of(auv)?)));
+        let started: Vec<(AuvId, Child)> =
+            started.map(|(auv, bus)| (auv, self.command(bus, auv, arguments, "").spawn().unwrap())).collect();
+        let processes = started.iter().map(|(auv, child)| (*auv, child.id())).collect();
+        self.children = started.into_iter().map(|(_, child)| child).collect();
+        processes
+    }
+
     /// Starts a channel in a process of its own, and three AUVs; kills it in the middle of the run, and waits until they
     /// have ended as well.
     pub fn outlive_channel(&mut self, bus: &str, arguments: &[&str]) {

@@ -8,7 +8,7 @@
 //! Everything is computed to nearest and the bound moved outwards by more than all roundings together: none is above 2⁻⁵³ of
 //! the sum of magnitudes, and there are fewer than 50.
 
-use nalgebra::Vector4;
+use nalgebra::{Vector3, Vector4};
 use shoal_interval::{Interval, IntervalBox};
 
 use crate::rings::Ring;
@@ -44,13 +44,14 @@ pub(super) struct Frame {
 impl Frame {
     pub fn new(state: &State) -> Self {
         let [x, y, z] = state.position_m.sides();
-        let sides = [x, y, z, state.offset_s];
-        let middle = Vector4::from(sides.map(Interval::mid));
-        let relative = |axis: usize| (sides[axis] - middle[axis]) * scale(axis);
+        let sides = IntervalBox::from([x, y, z, state.offset_s]);
+        let middle = sides.mid();
+        let [x, y, z, offset_s] = (sides - IntervalBox::from(middle)).sides();
+        let offset_m = offset_s * SCALE_M_S;
         Self {
             middle,
-            lower: Vector4::from_fn(|axis, _| relative(axis).lower()),
-            upper: Vector4::from_fn(|axis, _| relative(axis).upper()),
+            lower: Vector4::new(x.lower(), y.lower(), z.lower(), offset_m.lower()),
+            upper: Vector4::new(x.upper(), y.upper(), z.upper(), offset_m.upper()),
         }
     }
 
@@ -72,7 +73,8 @@ impl Frame {
     /// The planes of a ring that leave out a part of the box; none when its centre is the middle of the box.
     pub fn planes(&self, ring: &Ring, index: usize, sound: &Sound) -> [Option<HalfSpace>; 2] {
         let centre_m: IntervalBox<3> = ring.emitter_m + ring.since.displacement_m;
-        let centre_m: [Interval; 3] = std::array::from_fn(|axis| centre_m[axis] - self.middle[axis]);
+        let [x, y, z, _] = self.middle.into();
+        let centre_m = (centre_m - IntervalBox::from(Vector3::new(x, y, z))).sides();
         // From emission to reception, if the clock is off by as much as in the middle of the box.
         let delay_s = ring.arrival_s - ring.since.offset_gain_s - ring.emission_s + self.middle[3];
 
@@ -117,12 +119,13 @@ impl Frame {
         if !cuts(&far) {
             return [Some(near).filter(cuts), None];
         }
-        let mut bend_m = 0.0_f64;
-        for corner in 0..8 {
+        let mut bends_m = [0.0; 8];
+        for (corner, bend_m) in bends_m.iter_mut().enumerate() {
             let (x, y, z) = (corner & 1, corner >> 1 & 1, corner >> 2);
             let length_m = (squares[0][x] + squares[1][y] + squares[2][z]).sqrt();
-            bend_m = bend_m.max(length_m - (along[0][x] + along[1][y] + along[2][z]));
+            *bend_m = length_m - (along[0][x] + along[1][y] + along[2][z]);
         }
+        let bend_m = bends_m.into_iter().fold(0.0, f64::max);
 
         far.bound += bend_m;
         [near, far].map(|plane| Some(plane).filter(cuts))

@@ -1,16 +1,16 @@
 //! One receiver: the packets that are on their way to it, and what its modem makes of them.
 
-use std::sync::Arc;
-
 use shoal_bus::message::{AuvId, Bounds};
 use shoal_bus::time::{LocalTime, SimTime};
 use shoal_bus::traffic::{Fate, LossReason, SoundPath};
-use shoal_scenario::model::DutyCycle;
+use shoal_scenario::LISTEN_MAX_NS;
+use shoal_scenario::model::{DutyCycle, MediumAccess, Scenario, Sea as SeaModel};
 
 use crate::body::Vec3;
-use crate::budget::Link;
-use crate::reception::{Arrival, ArrivalKind, Ear, Outcome, Verdict};
-use crate::sound::{ARRIVAL_TOLERANCE_S, Told, Wavefront};
+use crate::budget::{self, Link};
+use crate::draw::{Draws, Purpose};
+use crate::reception::{Arrival, ArrivalKind, Ear, EarSettings, Outcome, Verdict};
+use crate::sound::{ARRIVAL_TOLERANCE_S, Told, Wavefront, Wavefronts};
 use crate::vehicle::Vehicle;
 
 use super::SeaWater;
@@ -20,7 +20,9 @@ use super::crossing::{Crossing, Meeting};
 pub struct Listener {
     auv: AuvId,
     /// Its modem; `None` for a deaf one.
-    pub ear: Option<Ear>,
+    ear: Option<Ear>,
+    /// What is settled and was not taken yet.
+    pub told: Vec<Told>,
     duty_cycle: Option<DutyCycle>,
     /// What it is told about the speed of sound, in m/s.
     stated_m_s: Bounds,
@@ -35,8 +37,8 @@ pub struct Listener {
 /// A packet on its way to one receiver, by several paths.
 #[derive(Default)]
 struct Packet {
-    /// `None` when unused.
-    wavefront: Option<Arc<Wavefront>>,
+    /// Its wavefront's number; `None` when unused.
+    wavefront: Option<u64>,
     known: bool,
     paths: Vec<Path>,
     settled: bool,
@@ -58,18 +60,50 @@ impl Packet {
 }
 
 impl Listener {
-    /// A receiver of whom nobody has heard yet.
-    pub fn new(auv: AuvId, ear: Option<Ear>, duty_cycle: Option<DutyCycle>, stated_m_s: Bounds) -> Self {
-        Self {
-            auv,
-            ear,
-            duty_cycle,
-            stated_m_s,
-            packets: Vec::new(),
-            unused: Vec::new(),
-            crossing: Vec::new(),
-            outcomes: Vec::new(),
+    /// The listeners of a run, of whom nobody has heard yet; `vehicles` are all of its AUVs, newborn.
+    pub fn all(scenario: &Scenario, sea: &SeaModel, vehicles: &[Vehicle]) -> impl Iterator<Item = Self> {
+        vehicles.iter().map(|vehicle| {
+            let auv = vehicle.born.auv;
+            let group = &scenario.groups[usize::from(vehicle.born.group)];
+            let ear = group.modem.physical.map(|physical| {
+                let listens = matches!(group.modem.access, MediumAccess::Csma { .. });
+                let settings = EarSettings {
+                    noise_db: budget::noise_db(sea, &physical),
+                    physical,
+                    fading: sea.fading,
+                    sense_ns: if listens { LISTEN_MAX_NS } else { 0 },
+                };
+                Ear::new(settings, Draws::new(scenario.seed, Purpose::Reception, auv, scenario.noise))
+            });
+            Self {
+                auv,
+                ear,
+                told: Vec::new(),
+                duty_cycle: group.modem.duty_cycle,
+                stated_m_s: vehicle.born.modem.sound_speed_m_s,
+                packets: Vec::new(),
+                unused: Vec::new(),
+                crossing: Vec::new(),
+                outcomes: Vec::new(),
+            }
+        })
+    }
+
+    /// Its own modem emits.
+    pub fn emit(&mut self, wavefront: &Wavefront) {
+        if let Some(ear) = &mut self.ear {
+            ear.emit(wavefront.emitted, wavefront.emitted + wavefront.packet_ns);
         }
+    }
+
+    /// Whether its modem has heard nothing, and not emitted, between `since` and `now`, up to which it has listened.
+    pub fn is_quiet(&self, since: SimTime, now: SimTime) -> bool {
+        self.ear.as_ref().is_none_or(|ear| !ear.busy(since, now))
+    }
+
+    /// The number of the earliest wavefront that it waits for.
+    pub fn waits_for(&self) -> Option<u64> {
+        self.packets.iter().filter_map(|packet| packet.wavefront).min()
     }
 
     /// A packet too faint to be noticed leaves `distance_m` away; all that matters of it is its energy.
@@ -92,7 +126,7 @@ impl Listener {
     /// A packet leaves for this receiver, who is at `place_m`. False when no path leads to it that is loud enough to matter.
     pub fn await_packet(
         &mut self,
-        wavefront: &Arc<Wavefront>,
+        (wavefront_number, wavefront): (u64, &Wavefront),
         paths: &[SoundPath],
         link: &Link,
         water: &SeaWater,
@@ -124,7 +158,7 @@ impl Listener {
             self.unused.push(number);
             return false;
         }
-        packet.wavefront = Some(Arc::clone(wavefront));
+        packet.wavefront = Some(wavefront_number);
         packet.known = link.known;
         packet.settled = false;
         self.crossing.push(number);
@@ -137,13 +171,16 @@ impl Listener {
         horizon: SimTime,
         vehicle: &mut Vehicle,
         water: &SeaWater,
-        told: &mut Vec<Told>,
+        wavefronts: &Wavefronts,
     ) {
-        self.arrive(horizon, vehicle, water);
+        self.arrive(horizon, vehicle, water, wavefronts);
         let Some(ear) = &mut self.ear else { return };
         let mut outcomes = std::mem::take(&mut self.outcomes);
         ear.settle(horizon, &mut outcomes);
-        told.extend(outcomes.drain(..).filter_map(|outcome| self.settle(outcome)));
+        for outcome in outcomes.drain(..) {
+            let told = self.settle(outcome, wavefronts);
+            self.told.extend(told);
+        }
         self.outcomes = outcomes;
     }
 
@@ -152,13 +189,13 @@ impl Listener {
         self.packets.iter().filter(|packet| packet.wavefront.is_some() && !packet.settled).count()
     }
 
-    fn arrive(&mut self, horizon: SimTime, vehicle: &mut Vehicle, water: &SeaWater) {
+    fn arrive(&mut self, horizon: SimTime, vehicle: &mut Vehicle, water: &SeaWater, wavefronts: &Wavefronts) {
         let Some(ear) = &mut self.ear else { return };
         let speed_ratio = vehicle.ground_speed_m_s / water.slowest_m_s;
         let (packets, unused, duty_cycle) = (&mut self.packets, &mut self.unused, self.duty_cycle);
         self.crossing.retain(|&number| {
             let packet = &mut packets[number as usize];
-            let Some(wavefront) = &packet.wavefront else { return false };
+            let Some(wavefront) = packet.wavefront.map(|number| wavefronts.get(number)) else { return false };
             let copies = packet.paths.len() as u8;
             for path in packet.paths.iter_mut().filter(|path| path.met.is_none()) {
                 let body = &vehicle.body;
@@ -196,10 +233,11 @@ impl Listener {
         });
     }
 
-    fn settle(&mut self, outcome: Outcome) -> Option<Told> {
+    fn settle(&mut self, outcome: Outcome, wavefronts: &Wavefronts) -> Option<Told> {
         let Outcome { arrival, at, reception, verdict } = outcome;
         let packet = self.packets.get_mut(arrival.flight as usize)?;
-        let wavefront = Arc::clone(packet.wavefront.as_ref()?);
+        let number = packet.wavefront?;
+        let wavefront = wavefronts.get(number);
         let (meeting, stamp) = packet.paths.iter().find(|path| path.crossing.path == arrival.path)?.met?;
         let (to, range_m) = (self.auv, meeting.range_m);
         let fate = match verdict {
@@ -226,7 +264,7 @@ impl Listener {
             packet.wavefront = None;
             self.unused.push(arrival.flight);
         }
-        Some(Told { at, to, wavefront, fate, stamp: Some(stamp), incidence: Some(meeting.incidence) })
+        Some(Told { at, wavefront: number, fate, stamp: Some(stamp), incidence: Some(meeting.incidence) })
     }
 }
 

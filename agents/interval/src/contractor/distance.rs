@@ -8,7 +8,7 @@ use super::Contracted;
 use crate::interval::Interval;
 use crate::interval_box::IntervalBox;
 use crate::lanes;
-use crate::rounding::{add_down, add_up, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up};
+use crate::rounding::{mul_down, mul_up, sqrt_down, sqrt_up};
 use crate::set::{larger, smaller};
 
 /// Contracts two boxes and an interval linked by `‖a - b‖ = range`, the Euclidean norm, all in the same unit.
@@ -57,39 +57,22 @@ fn contract<const N: usize>(
         return None;
     }
     let differences = (*a - *b).sides();
-    let squares = match lanes::squares(&differences) {
-        Some(squares) => squares.map(Bounds::of),
-        None => differences.map(|difference| Bounds::of(difference).square()),
-    };
-    let differences = differences.map(Bounds::of);
-
-    // The squares before an axis and those after it; subtracting its own from the sum of all would count its width twice.
-    let mut after = [Bounds::ZERO; N];
-    for axis in (1..N).rev() {
-        after[axis - 1] = if axis + 1 == N { squares[axis] } else { squares[axis].plus(after[axis]) };
-    }
-    let sum = if N == 0 {
-        Bounds::ZERO
-    } else if N == 1 {
-        squares[0]
-    } else {
-        squares[0].plus(after[0])
-    };
+    let squares = lanes::squares(&differences).unwrap_or_else(|| differences.map(Interval::sqr));
+    let (sum, others) = sums_of_others(&squares);
 
     let mut narrowed = false;
     let shortest = larger(range.lower(), 0.0);
-    let mut square =
-        Bounds { lower: mul_down(shortest, shortest), upper: mul_up(range.upper(), range.upper()) };
+    let (mut least, mut most) = (mul_down(shortest, shortest), mul_up(range.upper(), range.upper()));
     let (mut lower, mut upper) = (shortest, range.upper());
-    if sum.lower > square.lower {
-        square.lower = sum.lower;
-        lower = larger(lower, sqrt_down(sum.lower));
+    if sum.lower() > least {
+        least = sum.lower();
+        lower = larger(lower, sqrt_down(sum.lower()));
     }
-    if sum.upper < square.upper {
-        square.upper = sum.upper;
-        upper = smaller(upper, sqrt_up(sum.upper));
+    if sum.upper() < most {
+        most = sum.upper();
+        upper = smaller(upper, sqrt_up(sum.upper()));
     }
-    if square.lower > square.upper || lower > upper {
+    if least > most || lower > upper {
         return None;
     }
     if lower != range.lower() || upper != range.upper() {
@@ -97,47 +80,48 @@ fn contract<const N: usize>(
         narrowed = true;
     }
 
-    let mut before = Bounds::ZERO;
+    let left = IntervalBox::from([Interval::from_bounds(least, most); N]) - IntervalBox::from(others);
+    let mut part = differences;
+    let mut cut = false;
     for axis in 0..N {
-        let others = if axis == 0 {
-            after[0]
-        } else if axis + 1 == N {
-            before
-        } else {
-            before.plus(after[axis])
-        };
-        before = if axis == 0 { squares[0] } else { before.plus(squares[axis]) };
-        let left =
-            Bounds { lower: sub_down(square.lower, others.upper), upper: sub_up(square.upper, others.lower) };
-        if left.lower <= squares[axis].lower && left.upper >= squares[axis].upper {
-            continue;
+        let (known, wanted) = (Bounds::of(squares[axis]), Bounds::of(left[axis]));
+        if wanted.lower > known.lower || wanted.upper < known.upper {
+            part[axis] = Bounds::of(differences[axis]).with_square_in(known, wanted)?;
+            cut |= part[axis] != differences[axis];
         }
-        let whole = differences[axis];
-        let part = whole.with_square_in(squares[axis], left)?;
-        narrowed |= contract_side(&mut a[axis], &mut b[axis], whole, part)?;
+    }
+    if cut {
+        // A side whose difference is still the whole one stays as it is: rounding outwards adds to that, and takes nothing away.
+        let part = IntervalBox::from(part);
+        let (new_a, new_b) = (*a & (*b + part), *b & (*a - part));
+        if new_a.is_empty() || new_b.is_empty() {
+            return None;
+        }
+        narrowed |= new_a != *a || new_b != *b;
+        (*a, *b) = (new_a, new_b);
     }
     Some(narrowed)
 }
 
-/// Contracts `a` and `b` when `a - b`, known to be in `whole`, must be in `part`; whether that moved a bound.
-#[inline]
-fn contract_side(a: &mut Interval, b: &mut Interval, whole: Bounds, part: Bounds) -> Option<bool> {
-    let (mut new_a, mut new_b) = (Bounds::of(*a), Bounds::of(*b));
-    if part.lower > whole.lower {
-        new_a.lower = larger(a.lower(), add_down(b.lower(), part.lower));
-        new_b.upper = smaller(b.upper(), sub_up(a.upper(), part.lower));
+/// The sum of all squares, and for each axis that of the others: to take its own from the sum of all would count its width twice.
+#[inline(always)]
+fn sums_of_others<const N: usize>(squares: &[Interval; N]) -> (Interval, [Interval; N]) {
+    let mut others = [Interval::ZERO; N];
+    let Some((&last, front)) = squares.split_last() else { return (Interval::ZERO, others) };
+    // Of those behind each axis, and then of those before it, too.
+    let mut after = last;
+    for axis in (0..front.len()).rev() {
+        others[axis] = after;
+        after = front[axis] + after;
     }
-    if part.upper < whole.upper {
-        new_a.upper = smaller(a.upper(), add_up(b.upper(), part.upper));
-        new_b.lower = larger(b.lower(), sub_down(a.lower(), part.upper));
+    let mut before = squares[0];
+    for axis in 1..N {
+        others[axis] = if axis < front.len() { before + others[axis] } else { before };
+        if axis < front.len() {
+            before += squares[axis];
+        }
     }
-    if new_a.lower > new_a.upper || new_b.lower > new_b.upper {
-        return None;
-    }
-    let narrowed = new_a != Bounds::of(*a) || new_b != Bounds::of(*b);
-    *a = Interval::from_bounds(new_a.lower, new_a.upper);
-    *b = Interval::from_bounds(new_b.lower, new_b.upper);
-    Some(narrowed)
+    (after, others)
 }
 
 /// An interval that is not empty, and need not be looked at for that again.
@@ -148,28 +132,14 @@ struct Bounds {
 }
 
 impl Bounds {
-    const ZERO: Bounds = Bounds { lower: 0.0, upper: 0.0 };
-
     #[inline]
     fn of(interval: Interval) -> Bounds {
         Bounds { lower: interval.lower(), upper: interval.upper() }
     }
 
-    #[inline]
-    fn plus(self, other: Bounds) -> Bounds {
-        Bounds { lower: add_down(self.lower, other.lower), upper: add_up(self.upper, other.upper) }
-    }
-
-    #[inline]
-    fn square(self) -> Bounds {
-        let smallest = larger(0.0, larger(self.lower, -self.upper));
-        let largest = larger(-self.lower, self.upper);
-        Bounds { lower: mul_down(smallest, smallest), upper: mul_up(largest, largest) }
-    }
-
     /// The hull of the numbers whose square, already known to be in `known`, is in `wanted`.
     #[inline]
-    fn with_square_in(self, known: Bounds, wanted: Bounds) -> Option<Bounds> {
+    fn with_square_in(self, known: Bounds, wanted: Bounds) -> Option<Interval> {
         let Bounds { mut lower, mut upper } = self;
         if wanted.upper < known.upper {
             if wanted.upper < 0.0 {
@@ -190,7 +160,7 @@ impl Bounds {
                 upper = smaller(upper, -root);
             }
         }
-        (lower <= upper).then_some(Bounds { lower, upper })
+        (lower <= upper).then(|| Interval::from_bounds(lower, upper))
     }
 }
 

@@ -76,6 +76,10 @@ impl<const N: usize> IntervalBox<N> {
     /// ```
     #[inline]
     pub fn inflate_axes(&self, radii: &SVector<f64, N>) -> IntervalBox<N> {
-        IntervalBox { sides: std::array::from_fn(|axis| self.sides[axis].inflate(radii[axis])) }.or_empty()
+        let mut around = [Interval::ZERO; N];
+        for (side, &radius) in around.iter_mut().zip(radii.iter()) {
+            *side = Interval::centred(0.0, radius);
+        }
+        *self + IntervalBox { sides: around }
     }
 }

@@ -160,7 +160,7 @@ fn tick_of(auv: AuvId, at: SimTime, tick: u64, noise: &mut Noise, entries: &mut 
     let mut push = |what| entries.push(Entry { at, auv, what });
     push(What::Truth(truth));
     push(What::Sensed(Sensed { tick, stamp, events }));
-    push(What::Acted(acted));
+    push(What::Acted(Box::new(acted)));
 }
 
 fn pings_of(from: AuvId, auvs: u32, begin: i64, sequence: u32, noise: &mut Noise, entries: &mut Vec<Entry>) {

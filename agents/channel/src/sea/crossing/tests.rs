@@ -78,6 +78,7 @@ fn body(draws: &mut Draws, number: u64, place_m: Vec3) -> (Body, f64) {
 fn wavefront(origin_m: Vec3, emitted_ns: i64) -> Wavefront {
     Wavefront {
         from: AuvId(1),
+        group: 0,
         sequence: 0,
         emitted: SimTime::from_ns(emitted_ns),
         packet_ns: 0,
