@@ -32,6 +32,13 @@ class Link:
 
     def live(self, be_born):
         """Lives one life: `be_born(born)` makes a mind, whose `step(sensed)` answers each tick, until the run ends."""
+        try:
+            self.answer(be_born)
+        finally:
+            # An open session keeps the process from ending, even after an exception.
+            self.session.close()
+
+    def answer(self, be_born):
         mind, last = None, None
         while True:
             sequence, message = self.receive(says_hello=last is None)
@@ -45,7 +52,6 @@ class Link:
                 continue
             self.send(RECEIVED, sequence)
             if message == "End":
-                self.session.close()
                 return
             mind = be_born(message["Born"])
 

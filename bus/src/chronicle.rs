@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::message::{Acted, AuvId, Sensed};
+use crate::summary::Flock;
 use crate::time::{LocalTime, SimTime};
 use crate::traffic::Traffic;
 
@@ -12,7 +13,8 @@ use crate::traffic::Traffic;
 pub struct Entry {
     /// When, in true time.
     pub at: SimTime,
-    /// To whom; for traffic, the emitter of what was emitted or never left, the receiver of what was heard or lost.
+    /// To whom; for traffic, the emitter of what was emitted or never left, the receiver of what was heard or lost; for the swarm as a
+    /// whole, the first AUV.
     pub auv: AuvId,
     /// What.
     pub what: What,
@@ -33,6 +35,8 @@ pub enum What {
     Violation(Violation),
     /// The AUV is gone; the reason is a clause.
     Ended(String),
+    /// How the swarm moves and holds together at this whole second, its least separation since the one before; no part of the digest.
+    Flock(Flock),
 }
 
 impl What {
@@ -45,6 +49,7 @@ impl What {
             Self::Traffic(_) => 3,
             Self::Violation(_) => 4,
             Self::Ended(_) => 5,
+            Self::Flock(_) => 6,
         }
     }
 }

@@ -162,6 +162,12 @@ impl Fleet for Composite<'_> {
         Ok(answers)
     }
 
+    fn vacancies(&mut self) -> Vec<AuvId> {
+        let mut vacancies: Vec<AuvId> = self.fleets.iter_mut().flat_map(|fleet| fleet.vacancies()).collect();
+        vacancies.sort_unstable();
+        vacancies
+    }
+
     fn end(&mut self) {
         self.fleets.iter_mut().for_each(|fleet| fleet.end());
     }

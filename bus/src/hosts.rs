@@ -184,7 +184,12 @@ pub enum HostError {
     Fleet(#[from] FleetError),
 }
 
-/// AUVs for people: runs of consecutive ids as `a..b`.
+/// What both ends call the text of a scenario: `blake3:` and its hash.
+pub fn scenario_hash(text: &str) -> String {
+    format!("blake3:{}", blake3::hash(text.as_bytes()).to_hex())
+}
+
+/// AUVs for people: runs of consecutive ids as `first-last`.
 pub fn ranges(auvs: &[AuvId]) -> String {
     let mut sorted: Vec<u32> = auvs.iter().map(|auv| auv.0).collect();
     sorted.sort_unstable();
@@ -192,7 +197,7 @@ pub fn ranges(auvs: &[AuvId]) -> String {
     let mut texts: Vec<String> = runs
         .map(|run| match run {
             [one] => one.to_string(),
-            [first, .., last] => format!("{first}..{last}"),
+            [first, .., last] => format!("{first}-{last}"),
             [] => String::new(),
         })
         .collect();
@@ -213,7 +218,7 @@ mod tests {
         let of = |auvs: &[u32]| ranges(&auvs.iter().copied().map(AuvId).collect::<Vec<_>>());
         assert_eq!(of(&[]), "");
         assert_eq!(of(&[4]), "4");
-        assert_eq!(of(&[5, 3, 4, 9, 11, 12]), "3..5, 9, 11..12");
+        assert_eq!(of(&[5, 3, 4, 9, 11, 12]), "3-5, 9, 11-12");
         let many: Vec<u32> = (0..40).map(|id| 2 * id).collect();
         assert_eq!(of(&many), "0, 2, 4, 6, 8, 10, 12, 14, ... (40 in all)");
     }

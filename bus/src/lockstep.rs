@@ -73,8 +73,8 @@ pub trait Fleet {
     }
 
     /// As [`exchange`](Self::exchange), for AUVs that may be late: waits until `deadline` at most, for those at work on earlier
-    /// batches as well, and brings back whatever is there, at most one batch of each. Batches of AUVs that are still at work are
-    /// not sent: they stay in `sensed` and can grow, each AUV's in one batch, until a later exchange takes them.
+    /// batches as well, and brings back whatever is there. Batches of AUVs that are still at work are not sent: they stay in
+    /// `sensed`, in which each AUV has one batch at most, and can grow until a later exchange takes them.
     ///
     /// # Errors
     /// Silence is none here. [`FleetError::NoDeadlines`] from transports that can only wait.

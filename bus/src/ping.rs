@@ -65,6 +65,7 @@ impl Frame {
     }
 
     /// The bytes.
+    #[inline]
     pub fn bytes(&self) -> &[u8] {
         &self.bytes[..usize::from(self.length)]
     }
@@ -195,10 +196,12 @@ impl Payload {
 }
 
 /// The bytes of a frame that has as many as it should.
+#[inline]
 fn header(frame: &Frame) -> Result<&[u8; FRAME_BYTES], FrameError> {
     frame.bytes().try_into().map_err(|_| FrameError::Length(frame.bytes().len()))
 }
 
+#[inline]
 fn kind(bytes: &[u8; FRAME_BYTES]) -> u8 {
     bytes[0] >> 5
 }
@@ -241,6 +244,7 @@ impl Ping {
     }
 
     /// Reads a frame. Any 31 bytes of the right kind are some ping; whether it is true is another question.
+    #[inline]
     pub fn decode(frame: &Frame) -> Result<Self, FrameError> {
         let bytes = header(frame)?;
         if kind(bytes) != INTERVALS {
@@ -331,6 +335,7 @@ impl Block {
 }
 
 /// The true time of emission at the usual place, in seconds; of intervals, its earliest.
+#[inline]
 fn emission_s(bytes: &[u8; FRAME_BYTES]) -> f64 {
     let [_, _, _, _, a, b, c, d, e, f, ..] = *bytes;
     let units = i64::from_le_bytes([0, 0, a, b, c, d, e, f]) >> 16;
@@ -357,6 +362,7 @@ fn block(exponent: u8, sides: [(i32, u8); 3]) -> BoundsBox {
 }
 
 /// 2^`exponent` exactly, for exponents of normal numbers.
+#[inline]
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }

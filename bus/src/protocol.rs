@@ -30,7 +30,8 @@
 //! the run. If the AUV is lost, the last line of that log is part of the reason, and the end of the log is shown: the message of an uncaught
 //! exception tells what happened. A process that ends is a lost AUV, whatever its exit code, unless it was told to end; its body drifts on
 //! and the run does too (or aborts, with `on_crash = "abort"`). The process is killed when the run's launcher dies, and 10 seconds after it was
-//! told to end. A program that starts others must end them itself: begin shell commands with `exec`.
+//! told to end. Close the session in any case, after an exception too: in some languages an open one keeps the process from ending, and a
+//! process that neither ends nor answers is waited for. A program that starts others must end them itself: begin shell commands with `exec`.
 //!
 //! # Zenoh
 //!

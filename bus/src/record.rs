@@ -12,6 +12,7 @@
 //! | `/summary` | `shoal.Summary/1` | JSON | the outcome, without facts of the machine; once, at the end |
 //! | `/born` | `shoal.Born/1` | [`SENSED_ENCODING`] | what every AUV was told at birth; once, at time zero |
 //! | `/offline` | `shoal.Offline/1` | JSON | trajectories reconstructed after the run in one batch; see [`append_offline`] |
+//! | `/flock` | `shoal.Flock/1` | JSON | how the swarm moves and holds together at one whole second |
 //!
 //! The schemas in `bus/schemas/` describe every field with its unit. A **batch** holds what happened in
 //! `(end - 100 ms, end]` of true time; `end` is a multiple of 100 ms and the `log_time` of its messages (nanoseconds of true

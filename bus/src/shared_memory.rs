@@ -10,6 +10,7 @@
 
 mod arena;
 mod fleet;
+mod late;
 mod link;
 mod long;
 mod members;

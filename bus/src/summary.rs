@@ -1,6 +1,12 @@
 //! What a run amounts to: the line that `shoal run --json` prints and the last message of a record.
 
+mod free_run;
+mod timings;
+
 use serde::{Deserialize, Serialize};
+
+pub use free_run::{FreeRun, LateAuv};
+pub use timings::{Cpu, Phase, PhaseLine, Stretch, Timings};
 
 /// Format tag of [`Summary`].
 pub const SUMMARY_FORMAT: &str = "shoal.summary/1";
@@ -18,7 +24,7 @@ pub struct Summary {
     /// Transport that carried the run.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bus: Option<String>,
-    /// Whether scenario and seed determine the digest: not when a process died or the run was interrupted.
+    /// Whether scenario and seed determine the digest: not when a process died, the run was interrupted, or AUVs ran freely.
     pub reproducible: bool,
     /// Number of AUVs.
     pub auvs: u32,
@@ -49,6 +55,9 @@ pub struct Summary {
     pub position_width_m: Widths,
     /// Width of the reported clock intervals, in seconds.
     pub clock_width_s: Widths,
+    /// How far AUVs with a station to keep really are from it, in metres, at their first and their last tick. Absent where none has one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub off_station_m: Option<Widths>,
     /// What became of the pings.
     pub pings: Pings,
     /// How the swarm moved at the end.
@@ -58,6 +67,12 @@ pub struct Summary {
     /// Memory of the processes.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub memory: Option<Memory>,
+    /// Where the time went, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub timings: Option<Timings>,
+    /// Deadlines and who missed them, where AUVs ran freely.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub free_run: Option<FreeRun>,
 }
 
 /// The proof.
@@ -175,7 +190,7 @@ pub struct EstimatorLine {
     pub width_median_m: f64,
 }
 
-/// Widths of enclosures over all AUVs.
+/// Widths of enclosures, or distances, over all AUVs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Widths {
     /// Median of each AUV's first report.
@@ -235,18 +250,29 @@ pub struct Lost {
     pub dead: u64,
 }
 
-/// How the swarm moved at the end of the run.
+/// How the swarm moves and holds together: at the end of the run, and in a record at every second. AUVs that are lost are counted in
+/// separation and collisions alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Flock {
     /// Length of the mean unit velocity: 1 when all move alike, near 0 when each goes its own way.
     pub polarization: f64,
-    /// Least distance between two bodies over the whole run, in metres, looked at ten times a simulated second; absent for a
-    /// single AUV.
+    /// Least distance between two bodies over the whole run, in a record since the second before; in metres, looked at ten times a
+    /// simulated second; absent for a single AUV.
     pub min_separation_m: Option<f64>,
     /// Pairs of bodies that came closer than their lengths allow.
     pub collisions: u64,
-    /// Fraction of all pairs that can hear each other at the end.
+    /// Fraction of all ordered pairs whose second is in range of the first.
     pub connectivity: f64,
+    /// Second smallest eigenvalue of the Laplacian of the graph whose links are the pairs in range of each other: zero when it has
+    /// several components, and the more the harder it is to cut in two (Fiedler 1973). Absent with more than four million links.
+    #[serde(default)]
+    pub algebraic_connectivity: Option<f64>,
+    /// Connected components of that graph: groups that no news leaves.
+    #[serde(default)]
+    pub components: u32,
+    /// AUVs in the largest of them.
+    #[serde(default)]
+    pub largest_component: u32,
 }
 
 /// AUVs that did not make it.

@@ -154,12 +154,18 @@
 //! | **`[group.start]`** | | | |
 //! | `region_m` | m | the area | places are drawn in this region |
 //! | `points_m` | m | | one place for each AUV, instead |
+//! | `grid` | | | table, instead: a point for each AUV in columns, then rows, then layers; see [`Grid`]: |
+//! | `grid.first_m`, `grid.spacing_m` | m | needed | its most westerly, southerly and deepest point; `[east, north, up]` between neighbours |
+//! | `grid.columns`, `grid.rows`, `grid.layers` | | needed, 1, 1 | points in each direction: as many as AUVs or more |
+//! | `grid.scatter_m` | m | 0 | an AUV begins at most so far east and north of its point |
 //! | `place` | | | `"on-circle"`: spread evenly on the controller's circle, instead |
 //! | `box_width_m` | m | 10 | width of the prior box, or `[least, greatest]` |
 //! | `known` | | `true` | `false`: it is told no box, and may be anywhere in the area |
 //! | `heading_rad` | rad | drawn | heading; on a circle, along it |
 //! | `speed_m_s` | m/s | the controller's | speed through the water |
 //! | **`controller`** `"hold"` | | | stays where the run begins |
+//! | **`controller`** `"station"` | | | goes to its point of `grid` or `points_m`, and stays there |
+//! | `speed_m_s` | m/s | 3/4 of the greatest | greatest speed over ground |
 //! | **`controller`** `"circle"` | | | see [`Controller::Circle`] |
 //! | `centre_m`, `radius_m`, `rate_rad_s` | m, m, rad/s | needed | the circle; a negative rate turns clockwise |
 //! | `phase_rad` | rad | 0 | angle of the first AUV at time 0, counter-clockwise from east |

@@ -27,6 +27,7 @@ const LIBRARY: &[LibraryEntry] = &[
     LibraryEntry { name: "sweep-16", text: include_str!("../library/sweep-16.toml") },
     LibraryEntry { name: "swarm-300", text: include_str!("../library/swarm-300.toml") },
     LibraryEntry { name: "swarm-1000", text: include_str!("../library/swarm-1000.toml") },
+    LibraryEntry { name: "seismic-grid-3000", text: include_str!("../library/seismic-grid-3000.toml") },
     LibraryEntry { name: "swarm-10000", text: include_str!("../library/swarm-10000.toml") },
 ];
 

@@ -548,6 +548,57 @@ pub enum Place {
     Points(Vec<Vec3>),
     /// On the controller's circle, evenly spread from its phase on, heading along it.
     OnCircle,
+    /// Near a point each of a grid.
+    Grid(Grid),
+}
+
+impl Place {
+    /// The point, in metres, to which the `index`-th AUV of the group belongs; `None` where places are drawn or on a circle.
+    pub fn point_m(&self, index: u32) -> Option<Vec3> {
+        match self {
+            Self::Points(points) => points.get(index as usize).copied(),
+            Self::Grid(grid) => Some(grid.point_m(index)),
+            Self::Region(_) | Self::OnCircle => None,
+        }
+    }
+}
+
+/// Points in columns (eastwards), rows (northwards) and layers (upwards), counted in this order: the AUVs of a group stand row by row,
+/// layer by layer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Grid {
+    /// The first point: the most westerly, southerly and deepest, in metres.
+    pub first_m: Vec3,
+    /// Metres between neighbours in each direction.
+    pub spacing_m: Vec3,
+    /// Points in each direction.
+    pub counts: [u32; 3],
+    /// How far from its point east and north an AUV begins at most, in metres.
+    pub scatter_m: f64,
+}
+
+impl Grid {
+    /// The `index`-th point, in metres.
+    ///
+    /// ```
+    /// use shoal_scenario::model::Grid;
+    /// let grid = Grid {
+    ///     first_m: [0.0, 0.0, -20.0], spacing_m: [100.0, 50.0, 0.0], counts: [10, 3, 1], scatter_m: 0.0,
+    /// };
+    /// assert_eq!(grid.point_m(9), [900.0, 0.0, -20.0]);
+    /// assert_eq!(grid.point_m(12), [200.0, 50.0, -20.0]);
+    /// assert_eq!(grid.points(), 30);
+    /// ```
+    pub fn point_m(&self, index: u32) -> Vec3 {
+        let [columns, rows, _] = self.counts.map(|count| count.max(1));
+        let at = [index % columns, index / columns % rows, index / columns / rows];
+        std::array::from_fn(|axis| self.first_m[axis] + self.spacing_m[axis] * f64::from(at[axis]))
+    }
+
+    /// How many points there are.
+    pub fn points(&self) -> u64 {
+        self.counts.iter().fold(1, |points: u64, &count| points.saturating_mul(u64::from(count)))
+    }
 }
 
 /// How they estimate.
@@ -626,8 +677,13 @@ pub enum Fusion {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Controller {
-    /// Stay where the run begins.
+    /// Stay where the run begins, as far as the AUV knows: in the middle of its prior box.
     Hold,
+    /// Go to the point of the start's grid, or of its points, to which the AUV belongs, and stay there against the current.
+    Station {
+        /// Greatest speed over ground in m/s.
+        speed_m_s: f64,
+    },
     /// Circle: `centre + (radius cos a, radius sin a, heave cos(a + heave_phase))`, `a = rate t + phase + spread k/count`
     /// for the k-th AUV of the group, spread = 2 pi.
     Circle {

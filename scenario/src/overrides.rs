@@ -55,6 +55,21 @@ pub enum OverrideError {
         /// Points it has.
         points: usize,
     },
+    /// A group has a grid of start points with one for each AUV.
+    #[error(
+        "--auvs {auvs}: group `{group}` would have {count} AUVs but its grid has {points} points; \
+         add rows to `start.grid` in the scenario file"
+    )]
+    StartGrid {
+        /// AUVs asked for.
+        auvs: u32,
+        /// The group.
+        group: String,
+        /// AUVs it would have.
+        count: u32,
+        /// Points it has.
+        points: u64,
+    },
     /// The AUV whose truth is shifted, or that is kidnapped, would be gone.
     #[error("--auvs {auvs}: the scenario has something in store for AUV {auv}, counted from 0; ask for {} or more", .auv + 1)]
     SabotagedAuvGone {
@@ -184,6 +199,12 @@ fn rescale(scenario: &mut Scenario, auvs: u32) -> Result<(), OverrideError> {
                 count,
                 points: points.len(),
             });
+        }
+        if let Place::Grid(grid) = &group.start.place
+            && grid.points() < u64::from(count)
+        {
+            let (group, points) = (group.name.clone(), grid.points());
+            return Err(OverrideError::StartGrid { auvs, group, count, points });
         }
         group.count = count;
         if let MediumAccess::Slotted { slots, .. } = &mut group.modem.access

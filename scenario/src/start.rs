@@ -2,8 +2,9 @@
 
 use toml::de::DeValue;
 
+use crate::AUVS_MAX;
 use crate::environment::contains;
-use crate::model::{Controller, Environment, Kind, Place, Start};
+use crate::model::{Controller, Environment, Grid, Kind, Place, Start};
 use crate::number::Rule;
 use crate::reader::Table;
 use crate::steering::within_speed_max;
@@ -98,12 +99,24 @@ fn place(
     count: Option<u32>,
 ) -> Option<Place> {
     let given: Vec<&str> =
-        ["region_m", "points_m", "place"].into_iter().filter(|key| table.has(key)).collect();
+        ["region_m", "points_m", "grid", "place"].into_iter().filter(|key| table.has(key)).collect();
     let region = table.region("region_m");
     let points = if table.has("points_m") { table.points("points_m") } else { None };
     table.get("points_m");
+    let grid = if table.has("grid") { grid(table, environment, count) } else { None };
+    table.get("grid");
     let on_circle = table.has("place").then(|| table.choice("place", &[("on-circle", ())], ())).flatten();
     table.get("place");
+    if matches!(controller, Some(Controller::Station { .. })) && !matches!(given[..], ["points_m"] | ["grid"])
+    {
+        table.findings.add(
+            given.first().map_or(table.header(), |key| table.span(key)),
+            "the controller `station` needs a point for each AUV",
+            "no points of their own here",
+            "write `grid = { first_m = [0, 0, -20], spacing_m = [100, 100, 0], columns = 10, rows = 10 }` or `points_m`",
+        );
+        return None;
+    }
     match given.as_slice() {
         // Everywhere in the area; without one there is an error already.
         [] => environment.map(|environment| Place::Region(environment.area_m)),
@@ -147,6 +160,7 @@ fn place(
             }
             Some(Place::Points(points))
         }
+        ["grid"] => grid.map(Place::Grid),
         ["place"] => {
             on_circle?;
             match controller {
@@ -169,10 +183,79 @@ fn place(
                 format!("a group begins at one place, not at `{first}` and `{second}`"),
                 "second place",
                 Some((table.span(first), "first place".into())),
-                "keep one of `region_m`, `points_m` and `place`",
+                "keep one of `region_m`, `points_m`, `grid` and `place`",
             );
             None
         }
         [_] => None,
+    }
+}
+
+/// The key `grid`.
+fn grid(start: &Table<'_>, environment: Option<&Environment>, count: Option<u32>) -> Option<Grid> {
+    let table = start.table("grid", "[group.start.grid]")?;
+    let first_m = table.vec3("first_m", None, Rule::Finite);
+    let spacing_m = table.vec3("spacing_m", None, Rule::NotNegative);
+    let number = |key, default| {
+        table.whole(key, default, 1, AUVS_MAX.into()).and_then(|count| u32::try_from(count).ok())
+    };
+    let (columns, rows, layers) =
+        (number("columns", None), number("rows", Some(1)), number("layers", Some(1)));
+    let scatter_m = table.number("scatter_m", Some(0.0), Rule::NotNegative);
+    let read = || {
+        let counts = [columns?, rows?, layers?];
+        Some(Grid { first_m: first_m?, spacing_m: spacing_m?, counts, scatter_m: scatter_m? })
+    };
+    let grid = read();
+    if let Some(grid) = &grid {
+        fits(&table, grid, environment, count);
+    }
+    table.finish();
+    grid
+}
+
+/// Whether a grid has a point inside the area for every AUV.
+fn fits(table: &Table<'_>, grid: &Grid, environment: Option<&Environment>, count: Option<u32>) {
+    if let Some(count) = count
+        && grid.points() < u64::from(count)
+    {
+        let [columns, rows, layers] = grid.counts;
+        table.refuse(
+            "columns",
+            format!(
+                "{columns} columns, {rows} rows and {layers} layers are {} points for {count} AUVs",
+                grid.points()
+            ),
+            format!("needs a point for each of the {count} AUVs"),
+            "add columns, rows or layers",
+        );
+    }
+    let directions = ["columns", "rows", "layers"].into_iter().enumerate();
+    if let Some((_, direction)) =
+        directions.clone().find(|&(axis, _)| grid.counts[axis] > 1 && grid.spacing_m[axis] == 0.0)
+    {
+        table.refuse(
+            "spacing_m",
+            format!("the {direction} of the grid are 0 m apart"),
+            "AUVs on top of each other",
+            "write a distance for each direction with more than one point: `[east, north, up]`",
+        );
+    }
+    let Some(environment) = environment else { return };
+    let reach = |side: f64| -> [f64; 3] {
+        let scatter_m = [grid.scatter_m, grid.scatter_m, 0.0];
+        std::array::from_fn(|axis| {
+            let steps = if side > 0.0 { f64::from(grid.counts[axis] - 1) } else { 0.0 };
+            grid.first_m[axis] + steps * grid.spacing_m[axis] + side * scatter_m[axis]
+        })
+    };
+    let (least, greatest) = (reach(-1.0), reach(1.0));
+    if !contains(&environment.area_m, least) || !contains(&environment.area_m, greatest) {
+        table.refuse(
+            "first_m",
+            format!("the grid reaches from {least:?} to {greatest:?}, outside the area"),
+            "not inside `area_m`",
+            "move it, make it smaller, or make `area_m` larger; z is up and 0 at the surface",
+        );
     }
 }

@@ -17,7 +17,7 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) group_names: &'a [&'a str],
 }
 
-const CONTROLLERS: [&str; 4] = ["hold", "circle", "waypoints", "reynolds"];
+const CONTROLLERS: [&str; 5] = ["hold", "station", "circle", "waypoints", "reynolds"];
 
 pub(crate) fn controller(group: &Table<'_>, around: &Surroundings<'_>) -> Option<Controller> {
     if !group.has("controller") {
@@ -47,9 +47,14 @@ pub(crate) fn controller(group: &Table<'_>, around: &Surroundings<'_>) -> Option
         }
         let empty = toml::de::DeTable::new();
         let table = Table::new(&empty, group.span("controller"), "[group.controller]", group.findings);
-        return if name == "hold" { Some(Controller::Hold) } else { reynolds(&table, around) };
+        return match name {
+            "hold" => Some(Controller::Hold),
+            "station" => station(&table, around),
+            _ => reynolds(&table, around),
+        };
     };
     let read = match name {
+        "station" => station(&table, around),
         "circle" => circle(&table, around),
         "waypoints" => waypoints(&table, around),
         "reynolds" => reynolds(&table, around),
@@ -180,6 +185,10 @@ fn waypoints(table: &Table<'_>, around: &Surroundings<'_>) -> Option<Controller>
         reach_m: reach_m?,
         repeat: repeat?,
     })
+}
+
+fn station(table: &Table<'_>, around: &Surroundings<'_>) -> Option<Controller> {
+    Some(Controller::Station { speed_m_s: cruise_speed(table, around.kind)? })
 }
 
 fn reynolds(table: &Table<'_>, around: &Surroundings<'_>) -> Option<Controller> {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::PING_BYTES;
+use crate::environment::norm;
 use crate::model::{Group, MediumAccess, Scenario};
 
 /// Something doubtful in a scenario that is good otherwise. Shown as a sentence without a full stop.
@@ -17,7 +18,7 @@ pub enum Warning {
         /// AUVs that have it.
         auvs: u32,
     },
-    /// Fewer slots than AUVs.
+    /// Fewer slots than AUVs, though they do not overlap as far as the area reaches.
     SlotsShared {
         /// The group.
         group: String,
@@ -89,7 +90,7 @@ impl Scenario {
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = extrapolations(&self.groups);
-        warnings.extend(slots(&self.groups, self.auv_count()));
+        warnings.extend(slots(self));
         warnings.extend(overloads(self));
         warnings
     }
@@ -109,12 +110,24 @@ fn extrapolations(groups: &[Group]) -> Vec<Warning> {
     warnings
 }
 
-fn slots(groups: &[Group], auvs: u32) -> Vec<Warning> {
+/// Whether slots are used again on purpose, by AUVs farther apart: the guard range is shorter than the area.
+fn uses_slots_again(scenario: &Scenario, access: &MediumAccess) -> bool {
+    let diagonal_m = norm(scenario.environment.area_m.map(|[least, greatest]| greatest - least));
+    match *access {
+        MediumAccess::Slotted { slots, guard_range_m, .. } => {
+            slots < scenario.auv_count() && guard_range_m < 0.999 * diagonal_m
+        }
+        _ => false,
+    }
+}
+
+fn slots(scenario: &Scenario) -> Vec<Warning> {
+    let (groups, auvs) = (&scenario.groups, scenario.auv_count());
     let mut warnings = Vec::new();
     let mut first: Option<(&Group, (i64, u32))> = None;
     for group in groups {
         let MediumAccess::Slotted { slot_ns, slots, .. } = group.modem.access else { continue };
-        if slots < auvs {
+        if slots < auvs && !uses_slots_again(scenario, &group.modem.access) {
             warnings.push(Warning::SlotsShared { group: group.name.clone(), slots, auvs });
         }
         let (earlier, frame) = *first.get_or_insert((group, (slot_ns, slots)));
@@ -126,12 +139,15 @@ fn slots(groups: &[Group], auvs: u32) -> Vec<Warning> {
     warnings
 }
 
-/// The bands, by centre and width, whose AUVs send more than a second of packets each second.
+/// The bands, by centre and width, whose AUVs, but for those that use slots again, send more than a second of packets each second.
 fn overloads(scenario: &Scenario) -> Vec<Warning> {
     let mut bands: Vec<((f64, f64), f64)> = Vec::new();
     for group in &scenario.groups {
         let Some(layer) = &group.modem.physical else { continue };
         let Some(period_s) = mean_period_s(&group.modem.access) else { continue };
+        if uses_slots_again(scenario, &group.modem.access) {
+            continue;
+        }
         let packet_s = group.modem.packet_s(&scenario.environment.level, PING_BYTES);
         let load = f64::from(group.count) * packet_s / period_s;
         let band = (layer.centre_hz, layer.bandwidth_hz);

@@ -44,6 +44,7 @@ broken! {
     window_too_long: "window-too-long",
     slow_sound: "slow-sound",
     start_outside: "start-outside",
+    grid_impossible: "grid-impossible",
     trusts_unknown: "trusts-unknown",
     circle_too_fast: "circle-too-fast",
     too_many: "too-many",

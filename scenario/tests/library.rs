@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use shoal_scenario::model::MediumAccess;
 use shoal_scenario::{Controller, LoadError, Overrides, Place, Scenario, library, load, parse};
 
 fn scenario(name: &str) -> Scenario {
@@ -57,9 +58,34 @@ fn swarms_have_their_sizes() {
     assert_eq!(counts("swarm-3"), [3]);
     assert_eq!(counts("swarm-300"), [300]);
     assert_eq!(counts("swarm-1000"), [500, 300, 200]);
+    assert_eq!(counts("swarm-10000"), [10_000]);
+    assert_eq!(counts("seismic-grid-3000").iter().sum::<u32>(), 3_000);
     for (index, group) in scenario("swarm-1000").groups.iter().enumerate() {
         let Controller::Reynolds { trusts, .. } = &group.controller else { panic!("not a swarm") };
         assert_eq!(trusts, &[index as u16]);
+    }
+}
+
+/// The comments of seismic-grid-3000.toml promise one grid of 60 columns and 50 rows, and that modems of one slot are 900 m apart.
+#[test]
+fn the_survey_is_one_grid_whose_slots_are_far_apart() {
+    let scenario = scenario("seismic-grid-3000");
+    let points_m: Vec<[f64; 3]> = scenario
+        .groups
+        .iter()
+        .flat_map(|group| (0..group.count).map(|index| group.start.place.point_m(index).unwrap()))
+        .collect();
+    for (index, point_m) in points_m.iter().enumerate() {
+        assert_eq!(point_m[..2], [100.0 * (index % 60) as f64, 100.0 * (index / 60) as f64]);
+    }
+    for group in &scenario.groups {
+        let MediumAccess::Slotted { slots, .. } = group.modem.access else { panic!("no slots") };
+        for (index, point_m) in points_m.iter().enumerate() {
+            for other_m in points_m[index + 1..].iter().skip(slots as usize - 1).step_by(slots as usize) {
+                let [east_m, north_m] = [point_m[0] - other_m[0], point_m[1] - other_m[1]];
+                assert!(east_m * east_m + north_m * north_m >= 900.0 * 900.0, "{point_m:?} {other_m:?}");
+            }
+        }
     }
 }
 
@@ -111,7 +137,7 @@ fn six_circles_surface_where_printed_and_meet() {
 fn an_unknown_name_is_answered_with_the_nearest() {
     let error = load("swarm300").unwrap_err();
     assert!(matches!(error, LoadError::Unknown { similar: Some("swarm-300"), .. }));
-    insta::assert_snapshot!(error, @"there is no scenario `swarm300`, neither in the library nor as a file: did you mean `swarm-300`?; the library has two-circles, six-circles, six-auvs-3d, sea-trial, swarm-3, kidnapped, unknown-start, surface-bounce, echoes, thermocline, crowded-band, data-incest, sweep-16, swarm-300, swarm-1000, or give the path of a .toml file");
+    insta::assert_snapshot!(error, @"there is no scenario `swarm300`, neither in the library nor as a file: did you mean `swarm-300`?; the library has two-circles, six-circles, six-auvs-3d, sea-trial, swarm-3, kidnapped, unknown-start, surface-bounce, echoes, thermocline, crowded-band, data-incest, sweep-16, swarm-300, swarm-1000, seismic-grid-3000, swarm-10000, or give the path of a .toml file");
 }
 
 #[test]

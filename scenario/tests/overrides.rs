@@ -56,6 +56,14 @@ fn placed_auvs_cannot_be_rescaled_unless_their_number_stays() {
 }
 
 #[test]
+fn a_grid_has_room_for_fewer_but_not_for_more() {
+    let fewer = auvs(300).apply(scenario("seismic-grid-3000")).unwrap();
+    assert_eq!(fewer.auv_count(), 300);
+    let more = auvs(3_100).apply(scenario("seismic-grid-3000"));
+    assert!(matches!(more, Err(OverrideError::StartGrid { .. })), "{more:?}");
+}
+
+#[test]
 fn refusals_name_the_flag_and_the_fix() {
     let seconds = |value| Overrides { duration_s: Some(value), ..Overrides::default() };
     let window = |value| Overrides { window_ms: Some(value), ..Overrides::default() };

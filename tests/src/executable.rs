@@ -68,6 +68,8 @@ pub fn alone() -> impl Drop {
 
 /// The executable with arguments, yet to be started.
 pub struct Command {
+    /// What it is preceded by, if it is to run elsewhere.
+    entry: Vec<String>,
     arguments: Vec<String>,
 }
 
@@ -95,7 +97,14 @@ pub struct Live {
 impl Command {
     /// `shoal ARGUMENTS`, split at spaces.
     pub fn new(arguments: &str) -> Self {
-        Self { arguments: arguments.split_whitespace().map(str::to_owned).collect() }
+        Self { entry: Vec::new(), arguments: arguments.split_whitespace().map(str::to_owned).collect() }
+    }
+
+    /// On another machine: preceded by [`Networks::entry`](crate::Networks::entry).
+    #[must_use]
+    pub fn within(mut self, entry: Vec<String>) -> Self {
+        self.entry = entry;
+        self
     }
 
     /// With one more argument, which may have spaces.
@@ -116,7 +125,9 @@ impl Command {
     pub fn start(&self) -> Live {
         let before = traces::shared_memory();
         let temporary = tempfile::tempdir().expect("a temporary folder can be made");
-        let mut child = std::process::Command::new(shoal())
+        let mut words = self.entry.iter().map(OsStr::new).chain([shoal().as_os_str()]);
+        let mut child = std::process::Command::new(words.next().unwrap_or_default())
+            .args(words)
             .args(&self.arguments)
             .env("TMPDIR", temporary.path())
             .stdin(Stdio::null())
@@ -207,6 +218,10 @@ impl Live {
     /// The processes of the AUVs that are there, by the AUVs' ids: several share one with `--auvs-per-process`.
     pub fn auvs(&mut self) -> BTreeMap<u32, Process> {
         let carried = |child: &Process| {
+            // A program of the user's is told one.
+            if let Some(auv) = child.argument("--auv").and_then(|auv| auv.parse::<u32>().ok()) {
+                return Some(auv..auv + 1);
+            }
             let auvs = child.argument("--auvs")?;
             let (first, end) = auvs.split_once("..")?;
             Some(first.parse::<u32>().ok()?..end.parse().ok()?)

@@ -9,6 +9,7 @@
 
 mod executable;
 mod local;
+mod network;
 pub mod present;
 mod process;
 mod random_scenario;
@@ -17,6 +18,7 @@ mod traces;
 
 pub use executable::{Command, Finished, Live, alone, shoal};
 pub use local::{LocalRunError, library_scenario, run_local, run_local_watched};
+pub use network::{Networks, Side};
 pub use process::{Process, await_that, processes_of};
 pub use random_scenario::{Dice, random_scenario, random_sea_scenario};
 pub use swarm_scenario::Swarm;

@@ -26,10 +26,11 @@ pub fn library_scenario(name: &str) -> Scenario {
 /// # Panics
 /// When the run cannot go on, as with a window that is too long.
 pub fn run_local(scenario: &Scenario, window_ns: Option<i64>) -> Summary {
-    run_local_watched(scenario, window_ns, Auv::new, |_| {}).expect("the run goes on to its end")
+    let channel = Channel::new(scenario).expect("the run can begin");
+    carry_out(scenario, channel, window_ns, Auv::new, |_| {}).expect("the run goes on to its end")
 }
 
-/// As [`run_local`], with minds made by `be_born`, showing `watch` all that happens, in order.
+/// As [`run_local`], with minds made by `be_born`, showing `watch` all that happens, in order, and how the swarm moves.
 ///
 /// # Errors
 /// When the run cannot go on.
@@ -37,17 +38,28 @@ pub fn run_local_watched<M: Mind>(
     scenario: &Scenario,
     window_ns: Option<i64>,
     be_born: impl Fn(&Born) -> M,
+    watch: impl FnMut(&Entry),
+) -> Result<Summary, LocalRunError> {
+    let mut channel = Channel::new(scenario)?;
+    channel.watch_flock();
+    carry_out(scenario, channel, window_ns, be_born, watch)
+}
+
+fn carry_out<M: Mind>(
+    scenario: &Scenario,
+    mut channel: Channel,
+    window_ns: Option<i64>,
+    be_born: impl Fn(&Born) -> M,
     mut watch: impl FnMut(&Entry),
 ) -> Result<Summary, LocalRunError> {
     let window_ns = window_ns.unwrap_or(scenario.window_ns);
-    let mut channel = Channel::new(scenario)?;
     let mut fleet = Local::new(be_born);
     fleet.born(&channel.born())?;
     while channel.now() < channel.end() {
         let to = (channel.now() + window_ns).min(channel.end());
         let sensed = channel.advance(to)?;
         let answers = fleet.exchange(&sensed, &mut || {})?;
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         channel.chronicle()?.iter().for_each(&mut watch);
     }
     Ok(channel.summary())

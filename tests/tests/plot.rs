@@ -8,7 +8,7 @@ fn a_record_becomes_figures() {
     let [record, figure, cut] = ["run.mcap", "figure.svg", "cut.mcap"].map(|name| folder.path().join(name));
     let summary =
         Command::new("run --bus local").with(scenario_file("shadow")).and("--record").with(&record).json();
-    for kind in ["losses", "ranges", "reach", "rays", "sinr", "estimators"] {
+    for kind in ["losses", "ranges", "reach", "rays", "sinr", "estimators", "flock"] {
         Command::new("plot").with(&record).and(kind).and("-o").with(&figure).finish().succeeded();
         let svg = std::fs::read_to_string(&figure).unwrap();
         assert!(svg.starts_with("<svg") && svg.contains("shadow, seed 3, 30 AUVs"), "{kind}: {svg}");

@@ -74,6 +74,7 @@ fn an_outside_reader_finds_every_message() {
         for rows in ["ticks", "reports", "told"] {
             assert_eq!(found[rows], summary["wakes"], "{rows}");
         }
+        assert_eq!(found["topics"]["/flock"].as_f64(), summary["sim_s"].as_f64());
         let pings = &summary["pings"];
         let count = |value: &Value| value.as_u64().unwrap();
         // Those beyond reach when a ping leaves are counted in its emission, and have no row of their own.

@@ -74,6 +74,17 @@ pub fn check_commands(scenario: &Scenario, order: &Order) -> Result<(), Failure>
     Ok(())
 }
 
+/// Refuses a scenario with programs of the user's where everything happens in this one: other minds in their place would be another run.
+pub fn needs_no_processes(scenario: &Scenario, fix: &str) -> Result<(), Failure> {
+    match scenario.groups.iter().find(|group| group.command.is_some()) {
+        Some(group) => Err(Failure::usage(format!(
+            "the AUVs of group `{}` are programs of their own, and the local bus has no processes; {fix}",
+            group.name
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Where a program of this name would be.
 fn in_path(program: &str) -> impl Iterator<Item = PathBuf> {
     let folders = std::env::var_os("PATH").unwrap_or_default();

@@ -1,13 +1,13 @@
 //! `shoal channel`: the process of the water.
 
-use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use shoal_bus::composite::{Composite, Part};
+use shoal_bus::hosts::HostsFleet;
 use shoal_bus::lockstep::{Fleet, FleetError};
 use shoal_bus::message::AuvId;
 use shoal_bus::run_dir::RunDir;
@@ -15,10 +15,11 @@ use shoal_bus::shared_memory::SharedMemoryFleet;
 use shoal_bus::summary::{Memory, Summary};
 use shoal_bus::zenoh::ZenohFleet;
 use shoal_channel::channel::Channel;
-use shoal_scenario::{OnCrash, Scenario};
+use shoal_scenario::Scenario;
 
 use crate::cli::Bus;
-use crate::drive::{Ending, Observer, Plan, drive};
+use crate::conduct::{Conducted, conduct};
+use crate::drive::{Ending, Observer};
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
 use crate::launch::{Done, FromChannel, Order, ToChannel};
@@ -66,11 +67,14 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
     let scenario = order.scenario()?;
     let mut channel = Channel::new(&scenario).map_err(Failure::failed)?;
     let recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, &scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, &scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let seats = Seat::of_run(&order, &scenario);
-    let (mut fleet, launched) = fleet(&order, &channel, seats, run, lines, orphaned)?;
+    let (mut fleet, launched) = fleet(&order, &scenario, &channel, seats, run, lines, orphaned)?;
     let outcome = carry_out(&order, &scenario, &mut channel, fleet.as_mut(), recorder, &launched, run);
     fleet.end();
     drop(fleet);
@@ -81,6 +85,7 @@ fn serve(run: &RunDir, orphaned: &Arc<AtomicBool>) -> Result<(), Failure> {
 /// All AUVs of the run, once their processes have been started: the user's programs always speak zenoh.
 fn fleet(
     order: &Order,
+    scenario: &Scenario,
     channel: &Channel,
     seats: Vec<Seat>,
     run: &RunDir,
@@ -95,7 +100,7 @@ fn fleet(
     let mut shared_memory = match in_memory.as_slice() {
         [] => None,
         seats => {
-            let processes = in_wake_order(seats, channel);
+            let processes = Seat::in_wake_order(seats, &channel.wake_order());
             Some(SharedMemoryFleet::create(run, &processes).map_err(Failure::failed)?)
         }
     };
@@ -104,15 +109,31 @@ fn fleet(
         [] => None,
         auvs => Some(ZenohFleet::create(&endpoint, run.id(), auvs).map_err(Failure::failed)?),
     };
+    let mut elsewhere = Vec::new();
+    let mut hosts = match &order.hosts {
+        None => None,
+        Some(hosts) => {
+            elsewhere = channel.wake_order();
+            elsewhere.retain(|auv| over_network.binary_search(auv).is_err());
+            let tell = |news: &str| say(&FromChannel::News(news.to_owned()));
+            Some(hosts.listen(order, scenario, elsewhere.clone(), tell)?)
+        }
+    };
     let interrupts = (
         shared_memory.as_ref().map(SharedMemoryFleet::interrupt_handle),
         zenoh.as_ref().map(ZenohFleet::interrupt_handle),
+        hosts.as_ref().map(HostsFleet::interrupt_handle),
     );
     let interrupt = move || {
+        interrupts.2.iter().for_each(|handle| handle.interrupt());
         interrupts.0.iter().for_each(|handle| handle.interrupt());
         interrupts.1.iter().for_each(|handle| handle.interrupt());
     };
-    let launched = Launched::wait(seats, lines, orphaned, interrupt)?;
+    let mut launched = Launched::wait(seats, lines, orphaned, interrupt)?;
+    if let Some(fleet) = &mut hosts {
+        fleet.gather().map_err(Failure::failed)?;
+        launched.elsewhere = fleet.processes();
+    }
     let processes = launched.processes();
     let of = |auvs: &[AuvId]| -> Vec<(AuvId, u32)> {
         processes.iter().copied().filter(|(auv, _)| auvs.binary_search(auv).is_ok()).collect()
@@ -126,10 +147,12 @@ fn fleet(
     let zenoh = zenoh.map(|fleet| Part { auvs: over_network, fleet: Box::new(fleet) as Box<dyn Fleet> });
     let shared_memory =
         shared_memory.map(|fleet| Part { auvs: in_memory_ids, fleet: Box::new(fleet) as Box<dyn Fleet> });
-    let fleet: Box<dyn Fleet> = match (zenoh, shared_memory) {
-        (Some(part), None) | (None, Some(part)) => part.fleet,
-        (zenoh, shared_memory) => {
-            let parts = zenoh.into_iter().chain(shared_memory).collect();
+    let hosts = hosts.map(|fleet| Part { auvs: elsewhere, fleet: Box::new(fleet) as Box<dyn Fleet> });
+    let mut parts: Vec<Part> = hosts.into_iter().chain(zenoh).chain(shared_memory).collect();
+    let fleet = match parts.pop() {
+        Some(part) if parts.is_empty() => part.fleet,
+        last => {
+            parts.extend(last);
             Box::new(Composite::new(parts).map_err(Failure::failed)?)
         }
     };
@@ -149,33 +172,27 @@ fn carry_out(
     let (mut tapped, trouble) = Tapped::create(run);
     trouble.map(FromChannel::Note).iter().for_each(say);
 
-    let ending = match fleet.born(&channel.born()) {
+    let is_born = match fleet.born(&channel.born()) {
         Ok(losses) => {
             channel.stillborn(losses);
             say(&FromChannel::Started);
-            None
+            true
         }
-        Err(FleetError::Interrupted) => Some(Ending::Interrupted),
+        Err(FleetError::Interrupted) => false,
         Err(error) => return Err(Failure::failed(error)),
     };
-    let began = Instant::now();
-    let ending = match ending {
-        Some(ending) => ending,
-        None => {
-            let plan = Plan {
-                window_ns: scenario.window_ns,
-                pace: order.pace,
-                abort_on_crash: scenario.on_crash == OnCrash::Abort,
-            };
-            let mut progress = Progress::new(|sim_s| say(&FromChannel::Progress(sim_s)));
-            let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
-            observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
-            drive(channel, fleet, &plan, &mut observers, &|| launched.interrupted())?
-        }
+    let processes: Vec<u32> = launched.seats.iter().map(|(_, pid)| *pid).collect();
+    let conducted = if is_born {
+        let mut progress = Progress::new(|sim_s| say(&FromChannel::Progress(sim_s)));
+        let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
+        observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
+        let interrupted = || launched.interrupted();
+        conduct(order, scenario, channel, fleet, &mut observers, &interrupted, &processes)?
+    } else {
+        Conducted::nothing()
     };
-    let wall_s = began.elapsed().as_secs_f64();
 
-    let simulated = channel.summary();
+    let simulated = conducted.complete(channel.summary());
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.clone().map(FromChannel::Note).iter().for_each(say);
     tapped.end();
@@ -187,38 +204,30 @@ fn carry_out(
         .map(|(seat, pid)| (*pid, seat.auvs.len()))
         .collect();
     let summary = Summary {
-        bus: Some(order.bus.name().to_owned()),
-        processes: Some(launched.seats.len() as u32 + 1),
-        wall_s: Some(wall_s),
-        real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
+        bus: Some(order.bus_name().to_owned()),
+        processes: Some(launched.seats.len() as u32 + launched.elsewhere.load(Ordering::Relaxed) + 1),
         memory: Some(Memory {
             auv_pss_kib_median: memory::median_pss_kib(&alive),
             channel_rss_kib: memory::own_rss_kib(),
         }),
-        ..simulated
+        ..conducted.with_wall_facts(simulated)
     };
-    let aborted = match &ending {
+    let aborted = match &conducted.ending {
         Ending::Aborted(loss) => {
             Some(format!("AUV {} ended ({}) and on_crash = \"abort\"", loss.auv, loss.reason))
         }
         _ => None,
     };
-    let interrupted = ending == Ending::Interrupted;
+    let interrupted = conducted.ending == Ending::Interrupted;
     let record_incomplete = incomplete_record.is_some();
     Ok(FromChannel::Done(Box::new(Done { summary, interrupted, record_incomplete, aborted })))
-}
-
-/// The AUVs of each seat, in the order of the first of each to wake.
-fn in_wake_order(seats: &[Seat], channel: &Channel) -> Vec<Vec<AuvId>> {
-    let place: BTreeMap<AuvId, usize> = channel.wake_order().into_iter().zip(0..).collect();
-    let mut processes: Vec<Vec<AuvId>> = seats.iter().map(Seat::ids).collect();
-    processes.sort_by_key(|auvs| auvs.iter().filter_map(|auv| place.get(auv)).min());
-    processes
 }
 
 /// The seats with their processes, and the launcher's later word.
 struct Launched {
     seats: Vec<(Seat, u32)>,
+    /// How many processes other hosts have started.
+    elsewhere: Arc<AtomicU32>,
     stop: Arc<AtomicBool>,
 }
 
@@ -260,7 +269,7 @@ impl Launched {
             .spawn(listen)
             .while_doing("start a thread")?;
         let pids = receiver.recv().map_err(|_| Failure::failed("the launcher ended before the run began"))?;
-        Ok(Self { seats: seats.into_iter().zip(pids).collect(), stop })
+        Ok(Self { seats: seats.into_iter().zip(pids).collect(), elsewhere: Arc::default(), stop })
     }
 
     /// Which process is which AUV.

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
 use crate::plot::Kind;
 use crate::set::Setting;
@@ -34,11 +35,19 @@ pub enum Command {
         shoal run swarm-3 --set group.modem.range_m=300"
     )]
     Run(RunArgs),
+    /// Carry AUVs of a run whose water is on another machine
+    #[command(
+        after_help = "On the machine with the water:\n  shoal run swarm-300 --listen tcp/192.168.0.7:7447 --hosts 2\nOn each that \
+        carries AUVs:\n  shoal host --connect tcp/192.168.0.7:7447 --slots 150\n\nIt ends with the run. A host that joins a run in \
+        progress waits to take the place of one that is lost."
+    )]
+    Host(HostArgs),
     /// Run a scenario for many seeds and values of its keys, and print one table
     #[command(
         after_help = "KEY names a value of the scenario file with dots, such as `environment.sound_speed_m_s`, or \
         `group.0.count` for the first group and `group.count` for all.\n\nExamples:\n  shoal sweep six-circles --seeds 1..5\n  \
-        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv"
+        shoal sweep swarm-300 --auvs 30 --seeds 1..20 --set group.modem.range_m=200,400,800 --csv range.csv\n\n\
+        With --csv or --runs a sweep that was stopped, however it was, goes on when the same command is given again."
     )]
     Sweep(SweepArgs),
     /// Watch the pings of a live run on this host
@@ -81,12 +90,24 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// Measure this machine
+    Bench {
+        #[command(subcommand)]
+        command: BenchCommand,
+    },
     /// A program of the user's that is one AUV; started by `run`
     #[command(hide = true)]
     Agent(AgentArgs),
     /// One AUV, or several; started by `run`
     #[command(hide = true)]
     Auv(AuvArgs),
+    /// What cleans up after a host that was killed; started by `host`
+    #[command(hide = true)]
+    Janitor {
+        /// Folder of the run
+        #[arg(long)]
+        run: PathBuf,
+    },
     /// The water; started by `run`
     #[command(hide = true)]
     Channel {
@@ -94,6 +115,16 @@ pub enum Command {
         #[arg(long)]
         run: PathBuf,
     },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum BenchCommand {
+    /// What an AUV costs among more and more others at the same density: processor time, start-up, memory
+    #[command(
+        after_help = "Examples:\n  shoal bench scale\n  shoal bench scale --bus local --auvs 100,1000,10000 --json\n  \
+        shoal bench scale --control-period-s 1"
+    )]
+    Scale(ScaleArgs),
 }
 
 #[derive(Debug, Subcommand)]
@@ -127,15 +158,33 @@ pub struct RunArgs {
     pub set: Vec<Setting>,
     #[command(flatten)]
     pub changes: Changes,
-    /// `max`, or simulated seconds per second of wall clock: 1 is real time
-    #[arg(long, default_value = "max", value_parser = parse_pace, allow_negative_numbers = true)]
-    pub pace: Pace,
+    /// `max`, or simulated seconds per second of wall clock: 1 is real time. `max` unless given, 1 with --free-run
+    #[arg(long, value_parser = parse_pace, allow_negative_numbers = true)]
+    pub pace: Option<Pace>,
+    /// Wait for nobody: an AUV that does not answer within its reaction time holds its last command. For hardware in the loop;
+    /// such a run cannot be reproduced
+    #[arg(long)]
+    pub free_run: bool,
+    /// Tell where the time went, as a graph, or with --json in the summary
+    #[arg(long)]
+    pub timings: bool,
     /// Write a record (MCAP) of the run
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// zenoh endpoint to listen on and connect to, such as `tcp/127.0.0.1:7447`; a private socket unless given
     #[arg(long, value_name = "ENDPOINT", value_parser = parse_endpoint)]
     pub endpoint: Option<String>,
+    /// Have hosts carry the AUVs, and listen for them here, such as `tcp/192.168.0.7:7447`: see `shoal host`
+    #[arg(long, value_name = "ENDPOINT", value_parser = parse_network_endpoint, requires = "hosts", conflicts_with_all = ["bus", "endpoint"])]
+    pub listen: Option<String>,
+    /// How many hosts the run begins with
+    #[arg(long, value_name = "M", requires = "listen")]
+    pub hosts: Option<NonZeroU32>,
+    /// A host that is silent for so many seconds is lost
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = parse_seconds, requires = "listen")]
+    pub host_limit: f64,
+    #[command(flatten)]
+    pub network: NetworkArgs,
     /// Print the summary as one JSON line
     #[arg(long)]
     pub json: bool,
@@ -144,8 +193,46 @@ pub struct RunArgs {
     pub quiet: bool,
 }
 
+/// How hosts reach each other.
+#[derive(Debug, Args)]
+pub struct NetworkArgs {
+    /// Configuration of zenoh between hosts, over the one that `shoal host --print-zenoh-config` prints
+    #[arg(long, value_name = "FILE")]
+    pub zenoh_config: Option<PathBuf>,
+    /// File with a secret that the other end must know as well; `SHOAL_TOKEN` unless given
+    #[arg(long, value_name = "FILE")]
+    pub token: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct HostArgs {
+    /// Where `shoal run` listens, such as `tcp/192.168.0.7:7447`
+    #[arg(long, value_name = "ENDPOINT", value_parser = parse_network_endpoint, required_unless_present = "print_zenoh_config")]
+    pub connect: Option<String>,
+    /// How many AUVs this machine can carry
+    #[arg(long, value_name = "N", required_unless_present = "print_zenoh_config")]
+    pub slots: Option<NonZeroU32>,
+    /// What to call this host; the machine's name unless given
+    #[arg(long)]
+    pub name: Option<String>,
+    /// Take part in a run of this scenario only: the texts must be the same
+    #[arg(long, value_name = "SCENARIO")]
+    pub scenario: Option<String>,
+    /// Wait so many seconds for the run to be there
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
+    pub wait: f64,
+    #[command(flatten)]
+    pub network: NetworkArgs,
+    /// Print the configuration of zenoh that holds unless `--zenoh-config` says otherwise, and end
+    #[arg(long)]
+    pub print_zenoh_config: bool,
+    /// Do not tell how far the run is
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
 /// Changes to a scenario that have a flag of their own.
-#[derive(Clone, Debug, Default, Args, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 pub struct Changes {
     /// Number of AUVs: scales all groups in proportion
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -186,6 +273,13 @@ pub struct SweepArgs {
     /// Write the table to this file too, as comma-separated values
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// Keep every run that ended in this file, so that the same command goes on where it was stopped; beside the table of `--csv`
+    /// unless given
+    #[arg(long, value_name = "FILE")]
+    pub runs: Option<PathBuf>,
+    /// Runs at a time; one for each core unless given
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
@@ -309,6 +403,31 @@ fn parse_auvs_per_process(text: &str) -> Result<NonZeroU32, String> {
 fn parse_auvs(text: &str) -> Result<Range<u32>, String> {
     let range = text.split_once("..").and_then(|(first, end)| Some(first.parse().ok()?..end.parse().ok()?));
     range.filter(|range| !range.is_empty()).ok_or_else(|| "give `FIRST..END`, such as `0..32`".to_owned())
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds| (1.0..=1e6).contains(seconds));
+    seconds.ok_or_else(|| "give seconds from 1 to 1000000".to_owned())
+}
+
+fn parse_network_endpoint(text: &str) -> Result<String, String> {
+    match text.split_once('/') {
+        Some(("quic", _)) if !cfg!(feature = "quic") => {
+            Err("this build has no QUIC: give `tcp/` or `tls/`, or build it with `--features quic`".to_owned())
+        }
+        Some(("tcp" | "tls" | "quic", address)) if has_port(address) => Ok(text.to_owned()),
+        Some(("unixsock-stream", path)) if !path.is_empty() => Ok(text.to_owned()),
+        _ => Err("give `tcp/ADDRESS:PORT`, or `tls/ADDRESS:PORT` with a configuration of zenoh that names certificates, such as \
+                  `tcp/192.168.0.7:7447`"
+            .to_owned()),
+    }
+}
+
+fn has_port(address: &str) -> bool {
+    // What follows a `?` or `#` is zenoh's.
+    let address = address.split(['?', '#']).next().unwrap_or(address);
+    let port = address.rsplit_once(':').filter(|(name, _)| !name.is_empty());
+    port.is_some_and(|(_, port)| port.parse::<u16>().is_ok_and(|port| port > 0))
 }
 
 fn parse_endpoint(text: &str) -> Result<String, String> {

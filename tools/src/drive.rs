@@ -4,11 +4,13 @@ use std::time::{Duration, Instant};
 
 use shoal_bus::chronicle::Entry;
 use shoal_bus::lockstep::{Fleet, FleetError, Loss};
+use shoal_bus::summary::Phase;
 use shoal_bus::time::SimTime;
 use shoal_channel::channel::Channel;
 
 use crate::cli::Pace;
 use crate::failure::Failure;
+use crate::stopwatch::Stopwatch;
 
 /// Someone who looks on without changing anything.
 pub trait Observer {
@@ -46,8 +48,19 @@ pub fn drive(
     observers: &mut [&mut dyn Observer],
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Ending, Failure> {
-    let began = Instant::now();
-    let ending = windows(channel, fleet, plan, observers, interrupted, began);
+    drive_watched(channel, fleet, plan, observers, interrupted, &mut Stopwatch::off())
+}
+
+/// As [`drive`], with a stopwatch at hand.
+pub fn drive_watched(
+    channel: &mut Channel,
+    fleet: &mut dyn Fleet,
+    plan: &Plan,
+    observers: &mut [&mut dyn Observer],
+    interrupted: &dyn Fn() -> bool,
+    watch: &mut Stopwatch,
+) -> Result<Ending, Failure> {
+    let ending = windows(channel, fleet, plan, observers, interrupted, watch);
     // The last window is still to be told, however it ended.
     tell(channel, observers)?;
     ending
@@ -59,17 +72,25 @@ fn windows(
     plan: &Plan,
     observers: &mut [&mut dyn Observer],
     interrupted: &dyn Fn() -> bool,
-    began: Instant,
+    watch: &mut Stopwatch,
 ) -> Result<Ending, Failure> {
+    let began = Instant::now();
     while channel.now() < channel.end() {
         if interrupted() {
             return Ok(Ending::Interrupted);
         }
         let to = (channel.now() + plan.window_ns).min(channel.end());
         keep_pace(plan.pace, began, to, interrupted);
+        watch.begin();
         let sensed = channel.advance(to).map_err(Failure::failed)?;
+        watch.lap(Phase::Channel);
         let mut told = Ok(());
-        let answers = fleet.exchange(&sensed, &mut || told = tell(channel, observers));
+        let answers = fleet.exchange(&sensed, &mut || {
+            watch.lap(Phase::Wake);
+            told = tell(channel, observers);
+            watch.lap(Phase::Record);
+        });
+        watch.lap_gathered(fleet.waited());
         told?;
         let answers = match answers {
             Ok(answers) => answers,
@@ -77,7 +98,9 @@ fn windows(
             Err(error) => return Err(Failure::failed(error)),
         };
         let loss = answers.losses.first().cloned();
-        channel.accept(answers);
+        channel.accept(sensed, answers);
+        watch.lap(Phase::Accept);
+        watch.end(to);
         if let Some(loss) = loss.filter(|_| plan.abort_on_crash) {
             return Ok(Ending::Aborted(loss));
         }
@@ -89,7 +112,7 @@ fn windows(
 }
 
 /// Gives those a new life whom the fleet can carry again. `false`: interrupted.
-fn revive(channel: &mut Channel, fleet: &mut dyn Fleet) -> Result<bool, Failure> {
+pub fn revive(channel: &mut Channel, fleet: &mut dyn Fleet) -> Result<bool, Failure> {
     let vacancies = fleet.vacancies();
     if vacancies.is_empty() {
         return Ok(true);
@@ -104,7 +127,7 @@ fn revive(channel: &mut Channel, fleet: &mut dyn Fleet) -> Result<bool, Failure>
 }
 
 /// Tells the observers what happened in the window last accepted.
-fn tell(channel: &mut Channel, observers: &mut [&mut dyn Observer]) -> Result<(), Failure> {
+pub fn tell(channel: &mut Channel, observers: &mut [&mut dyn Observer]) -> Result<(), Failure> {
     let to = channel.accepted();
     let entries = channel.chronicle().map_err(Failure::failed)?;
     for observer in observers.iter_mut() {

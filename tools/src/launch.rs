@@ -39,10 +39,31 @@ pub struct Order {
     pub auvs_per_process: NonZeroU32,
     /// zenoh endpoint.
     pub endpoint: Option<String>,
+    /// Where AUVs are carried, if not on this machine.
+    pub hosts: Option<HostsOrder>,
     /// Pace.
     pub pace: Pace,
+    /// Whether nobody waits for AUVs that are late.
+    pub free_run: bool,
+    /// Whether to note where the time goes.
+    pub timings: bool,
     /// Where to record.
     pub record: Option<PathBuf>,
+}
+
+/// Which hosts carry the AUVs of a run.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct HostsOrder {
+    /// Where to listen for them.
+    pub listen: String,
+    /// How many the run begins with.
+    pub count: usize,
+    /// Configuration of zenoh.
+    pub zenoh_config: Option<PathBuf>,
+    /// What they must know.
+    pub token: Option<String>,
+    /// Seconds of silence after which one is lost.
+    pub limit_s: f64,
 }
 
 /// From the channel to the launcher, on its standard output.
@@ -57,6 +78,8 @@ pub enum FromChannel {
     Progress(f64),
     /// Something that the user should know.
     Note(String),
+    /// Something that happened to a host.
+    News(String),
     /// The run is over.
     Done(Box<Done>),
     /// It failed.

@@ -4,12 +4,19 @@
 
 mod agent_process;
 mod auv_process;
+mod bench;
 mod channel_process;
 mod cli;
+mod conduct;
+mod cpu;
 mod drive;
 mod exit;
 mod failure;
 mod figure;
+mod free_run;
+mod host;
+mod hosts_fleet;
+mod janitor;
 mod launch;
 mod limits;
 mod localize;
@@ -25,15 +32,17 @@ mod scenario_order;
 mod scenarios;
 mod seat;
 mod set;
+mod stopwatch;
 mod summary_text;
 mod sweep;
 mod tap;
 mod terminal;
+mod timings_text;
 
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{Cli, Command, RecordCommand};
+use cli::{BenchCommand, Cli, Command, RecordCommand};
 use exit::Exit;
 use failure::{Failure, While};
 use shoal_bus::run_dir::RunDir;
@@ -51,6 +60,7 @@ fn main() -> ExitCode {
 fn command(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Run(args) => run::run(args),
+        Command::Host(args) => host::host(args),
         Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
         Command::Sweep(args) => sweep::sweep(args),
@@ -58,8 +68,12 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
+        Command::Janitor { run } => {
+            RunDir::open(run).while_doing("open the run's folder").and_then(|run| janitor::run(&run))
+        }
         Command::Channel { run } => {
             RunDir::open(run).while_doing("open the run's folder").and_then(|run| channel_process::run(&run))
         }

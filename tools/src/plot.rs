@@ -8,6 +8,7 @@
 //! | `rays.rs` | which way sound goes in the run's water |
 //! | `sinr.rs` | how far a packet stands out of the noise, over range |
 //! | `estimators.rs` | how good the estimates of each group are, over time |
+//! | `flock.rs` | how the swarm moves and holds together, over time |
 //! | `tubes.rs` | what is known of one AUV: without pings, online, offline |
 //!
 //! Each is a [`Plot`]: it takes the rows of the record one by one and ends as a figure. What it keeps does not grow with the
@@ -16,6 +17,7 @@
 mod depths;
 mod estimators;
 mod fate;
+mod flock;
 mod losses;
 mod ranges;
 mod rays;
@@ -53,6 +55,8 @@ pub enum Kind {
     Sinr,
     /// How often the truth is inside what each group believes, NEES of Kalman filters, error and width, over time
     Estimators,
+    /// Least separation, polarization, algebraic connectivity and connected components of the swarm, over time
+    Flock,
     /// Clock and x of one AUV without pings, online and offline, with the truth inside; for what `localize --offline` writes
     Tubes,
 }
@@ -107,6 +111,7 @@ fn plot_of(args: &PlotArgs) -> Box<dyn Plot> {
         Kind::Rays => Box::new(rays::Rays::new(args.depth_m, args.range_m)),
         Kind::Sinr => Box::<sinr::Sinr>::default(),
         Kind::Estimators => Box::<estimators::Estimators>::default(),
+        Kind::Flock => Box::<flock::Flock>::default(),
         Kind::Tubes => Box::new(tubes::Tubes::new(args.auv.unwrap_or(0))),
     }
 }

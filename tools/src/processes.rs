@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use shoal_bus::message::AuvId;
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::zenoh::RUNTIME_ENV;
 
@@ -24,6 +25,9 @@ pub const FAREWELL: Duration = Duration::from_secs(10);
 pub const HASTY_FAREWELL: Duration = Duration::from_secs(2);
 /// How a process ended that did not do so in time.
 const KILLED_AT_THE_END: &str = "killed because it did not end when told to";
+
+/// How soon a process that is known to have ended can be reaped.
+const REAPING: Duration = Duration::from_millis(500);
 
 /// This program's own file.
 fn executable() -> Result<PathBuf, Failure> {
@@ -135,6 +139,21 @@ pub struct Swarm {
 impl Swarm {
     /// Starts a process for each seat.
     pub fn start(&mut self, run: &RunDir, order: &Order, seats: Vec<Seat>) -> Result<(), Failure> {
+        self.start_all(run, order.bus, Some(order), seats)
+    }
+
+    /// The same for AUVs of Shoal's own in shared memory, of which this machine knows no more.
+    pub fn start_in_memory(&mut self, run: &RunDir, seats: Vec<Seat>) -> Result<(), Failure> {
+        self.start_all(run, Bus::Iceoryx2, None, seats)
+    }
+
+    fn start_all(
+        &mut self,
+        run: &RunDir,
+        bus: Bus,
+        order: Option<&Order>,
+        seats: Vec<Seat>,
+    ) -> Result<(), Failure> {
         let exe = executable()?;
         let log = common_log(run);
         let launcher = std::process::id().to_string();
@@ -142,7 +161,7 @@ impl Swarm {
         let count = seats.len();
         for seat in seats {
             let mut command = command(&exe);
-            if let Some(of_user) = &seat.command {
+            if let (Some(of_user), Some(order)) = (&seat.command, order) {
                 agent_process::describe(&mut command, of_user, run, order, seat.auvs.start);
                 let log = open_log(&own_log(run, &seat)).while_doing("open a log for an AUV")?;
                 let stdout = log.try_clone().while_doing("open a log for an AUV")?;
@@ -151,11 +170,11 @@ impl Swarm {
             }
             let auvs = format!("{}..{}", seat.auvs.start, seat.auvs.end);
             command.arg("auv").arg("--run").arg(run.path()).args(["--auvs", &auvs]);
-            command.args(["--bus", order.bus.name(), "--launcher", &launcher]);
-            if let Some(endpoint) = &order.endpoint {
+            command.args(["--bus", bus.name(), "--launcher", &launcher]);
+            if let Some(endpoint) = order.and_then(|order| order.endpoint.as_ref()) {
                 command.args(["--endpoint", endpoint]);
             }
-            if order.bus == Bus::Zenoh {
+            if bus == Bus::Zenoh {
                 command.env(RUNTIME_ENV.0, RUNTIME_ENV.1);
             }
             let stderr = log_file.try_clone().while_doing("share the AUVs' log")?;
@@ -170,32 +189,64 @@ impl Swarm {
         self.children.iter().map(|(_, child)| child.id()).collect()
     }
 
+    /// Which process is which AUV.
+    pub fn processes(&self) -> Vec<(AuvId, u32)> {
+        let of_seat =
+            |(seat, child): &(Seat, Child)| seat.ids().into_iter().zip(std::iter::repeat(child.id()));
+        self.children.iter().flat_map(of_seat).collect()
+    }
+
+    /// How the process of an AUV ended, which is known to have ended.
+    pub fn ending_of(&mut self, auv: AuvId) -> Option<Ending> {
+        let log = self.log();
+        let (seat, child) = self.children.iter_mut().find(|(seat, _)| seat.auvs.contains(&auv.0))?;
+        let deadline = Instant::now() + REAPING;
+        loop {
+            match child.try_wait() {
+                Ok(Some(status)) => return Some(ending(self.run.as_ref(), seat, Some(status), &log)),
+                Ok(None) if Instant::now() < deadline => std::thread::sleep(Duration::from_millis(2)),
+                _ => return None,
+            }
+        }
+    }
+
+    /// What Shoal's own AUVs wrote.
+    fn log(&self) -> String {
+        read(self.run.as_ref().map(common_log))
+    }
+
     /// Waits for all to end, which they have been told to, and says how each did: by its status, or in its own last words.
     pub fn wait(&mut self, patience: Duration) -> Vec<Ending> {
         let deadline = Instant::now() + patience;
         let statuses: Vec<_> =
             self.children.iter_mut().map(|(seat, child)| (&*seat, end_by(child, deadline))).collect();
-        let read = |path: Option<PathBuf>| path.and_then(|log| std::fs::read(log).ok()).unwrap_or_default();
-        let log = read(self.run.as_ref().map(common_log));
-        let log = String::from_utf8_lossy(&log);
-        let ending = |(seat, status): (&Seat, Option<ExitStatus>)| {
-            let was_killed = status.is_none();
-            let status = status.map_or_else(|| KILLED_AT_THE_END.to_owned(), describe);
-            let own = match seat.command {
-                Some(_) => read(self.run.as_ref().map(|run| own_log(run, seat))),
-                None => Vec::new(),
-            };
-            let own = String::from_utf8_lossy(&own);
-            let start = format!("{}: ", seat.name());
-            let words = match seat.command {
-                Some(_) => own.lines().rev().map(str::trim).find(|line| !line.is_empty()),
-                None => log.lines().rev().find_map(|line| line.strip_prefix(&start)),
-            };
-            let reason = words.map_or_else(|| status.clone(), |words| format!("{status}: {words}"));
-            Ending { seat: seat.clone(), reason, was_killed, wrote: last_lines(&own) }
-        };
-        statuses.into_iter().map(ending).collect()
+        let run = self.run.as_ref();
+        let log = read(run.map(common_log));
+        statuses.into_iter().map(|(seat, status)| ending(run, seat, status, &log)).collect()
     }
+}
+
+/// How the process of a seat ended, which has no status if it was killed at the end; `log` is what Shoal's own AUVs wrote.
+fn ending(run: Option<&RunDir>, seat: &Seat, status: Option<ExitStatus>, log: &str) -> Ending {
+    let was_killed = status.is_none();
+    let status = status.map_or_else(|| KILLED_AT_THE_END.to_owned(), describe);
+    let own = match seat.command {
+        Some(_) => read(run.map(|run| own_log(run, seat))),
+        None => String::new(),
+    };
+    let start = format!("{}: ", seat.name());
+    let words = match seat.command {
+        Some(_) => own.lines().rev().map(str::trim).find(|line| !line.is_empty()),
+        None => log.lines().rev().find_map(|line| line.strip_prefix(&start)),
+    };
+    let reason = words.map_or_else(|| status.clone(), |words| format!("{status}: {words}"));
+    Ending { seat: seat.clone(), reason, was_killed, wrote: last_lines(&own) }
+}
+
+/// A log, as far as there is one.
+fn read(path: Option<PathBuf>) -> String {
+    let bytes = path.and_then(|log| std::fs::read(log).ok()).unwrap_or_default();
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// How the process of a seat ended.

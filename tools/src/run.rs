@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use shoal_auv::Auv;
 use shoal_bus::local::Local;
@@ -11,13 +11,15 @@ use shoal_bus::lockstep::{Fleet, PROCESS_ENDED};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::summary::{Memory, Summary};
 use shoal_channel::channel::Channel;
-use shoal_scenario::{OnCrash, Scenario};
+use shoal_scenario::Scenario;
 
-use crate::agent_process::check_commands;
+use crate::agent_process::{check_commands, needs_no_processes};
 use crate::cli::{Bus, RunArgs};
-use crate::drive::{Ending, Observer, Plan, drive};
+use crate::conduct::conduct;
+use crate::drive::{Ending, Observer};
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
+use crate::free_run::FreePlan;
 use crate::launch::{Done, FromChannel, Order};
 use crate::limits;
 use crate::memory;
@@ -26,6 +28,7 @@ use crate::processes::{ChannelProcess, Ending as ProcessEnding, FAREWELL, HASTY_
 use crate::progress::Bar;
 use crate::seat::Seat;
 use crate::summary_text;
+use crate::timings_text;
 
 /// The words of so many of the user's programs are shown.
 const LOGS_SHOWN: usize = 8;
@@ -37,12 +40,12 @@ pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     for warning in scenario.warnings() {
         eprintln!("warning: {warning}");
     }
+    if order.free_run {
+        FreePlan::window_ns(&scenario, order.changes.window_ms.is_some())?;
+    }
     check_commands(&scenario, &order)?;
-    if let (Bus::Local, Some(group)) = (order.bus, scenario.groups.iter().find(|of| of.command.is_some())) {
-        return Err(Failure::usage(format!(
-            "the AUVs of group `{}` are programs of their own, and the local bus has no processes: use `--bus iceoryx2` or `--bus zenoh`",
-            group.name
-        )));
+    if order.bus == Bus::Local {
+        needs_no_processes(&scenario, "use `--bus iceoryx2` or `--bus zenoh`")?;
     }
     if order.bus != Bus::Local {
         limits::check(Seat::of_run(&order, &scenario).len(), order.bus)?;
@@ -79,7 +82,7 @@ fn description(scenario: &Scenario, order: &Order) -> serde_json::Value {
         "scenario": scenario.name,
         "seed": scenario.seed,
         "auvs": scenario.auv_count(),
-        "bus": order.bus.name(),
+        "bus": order.bus_name(),
         "launcher": std::process::id(),
     })
 }
@@ -117,7 +120,12 @@ fn in_processes(
             }
             FromChannel::Progress(sim_s) => bar.advance(sim_s),
             FromChannel::Note(note) => bar.note(&note),
-            FromChannel::Failed { message } => return Err(Failure { exit: Exit::Failed, message }),
+            FromChannel::News(news) => bar.log(&news),
+            FromChannel::Failed { message } => {
+                // What the user's programs said may be why.
+                show_words(&swarm.wait(Duration::ZERO), bar);
+                return Err(Failure { exit: Exit::Failed, message });
+            }
             FromChannel::Done(mut done) => {
                 done.summary.startup_s = startup_s;
                 channel.wait();
@@ -131,9 +139,7 @@ fn in_processes(
                         };
                     }
                 }
-                for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
-                    bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
-                }
+                show_words(&endings, bar);
                 for ending in endings.iter().filter(|ending| ending.was_killed) {
                     let lost = &done.summary.agents.lost;
                     if !lost.iter().any(|lost| ending.seat.auvs.contains(&lost.auv)) {
@@ -149,6 +155,13 @@ fn in_processes(
     }
 }
 
+/// Shows what the user's programs wrote.
+fn show_words(endings: &[ProcessEnding], bar: &Bar) {
+    for ending in endings.iter().filter(|ending| !ending.wrote.is_empty()).take(LOGS_SHOWN) {
+        bar.log(&format!("{} wrote:\n{}", ending.seat.name(), ending.wrote));
+    }
+}
+
 /// No processes: the reference.
 fn in_this_program(
     order: &Order,
@@ -160,7 +173,10 @@ fn in_this_program(
     let began = Instant::now();
     let mut channel = Channel::new(scenario).map_err(Failure::failed)?;
     let mut recorder = match &order.record {
-        Some(path) => Some(Recorder::create(path, scenario, &order.text, &channel.born())?),
+        Some(path) => {
+            channel.watch_flock();
+            Some(Recorder::create(path, scenario, &order.text, &channel.born())?)
+        }
         None => None,
     };
     let mut fleet = Local::on_all_cores(Auv::new);
@@ -171,33 +187,24 @@ fn in_this_program(
     let startup_s = began.elapsed().as_secs_f64();
     bar.start();
 
-    let plan = Plan {
-        window_ns: scenario.window_ns,
-        pace: order.pace,
-        abort_on_crash: scenario.on_crash == OnCrash::Abort,
-    };
     let mut progress = Progress::new(|sim_s| bar.advance(sim_s));
     let mut observers: Vec<&mut dyn Observer> = vec![&mut tapped, &mut progress];
     observers.extend(recorder.as_mut().map(|recorder| recorder as &mut dyn Observer));
-    let windows = Instant::now();
     let is_interrupted = || interrupted.load(Ordering::Acquire);
-    let ending = drive(&mut channel, &mut fleet, &plan, &mut observers, &is_interrupted)?;
-    let wall_s = windows.elapsed().as_secs_f64();
+    let conducted = conduct(order, scenario, &mut channel, &mut fleet, &mut observers, &is_interrupted, &[])?;
 
-    let simulated = channel.summary();
+    let simulated = conducted.complete(channel.summary());
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.iter().for_each(|trouble| bar.note(trouble));
     tapped.end();
     let summary = Summary {
         bus: Some(order.bus.name().to_owned()),
         processes: Some(1),
-        wall_s: Some(wall_s),
         startup_s: Some(startup_s),
-        real_time_factor: Some(simulated.sim_s / wall_s.max(1e-9)),
         memory: Some(Memory { auv_pss_kib_median: 0, channel_rss_kib: memory::own_rss_kib() }),
-        ..simulated
+        ..conducted.with_wall_facts(simulated)
     };
-    let interrupted = ending == Ending::Interrupted;
+    let interrupted = conducted.ending == Ending::Interrupted;
     Ok(Done { summary, interrupted, record_incomplete: incomplete_record.is_some(), aborted: None })
 }
 
@@ -205,7 +212,8 @@ fn print_summary(args: &RunArgs, done: &Done) -> Result<(), Failure> {
     let text = if args.json {
         serde_json::to_string(&done.summary).while_doing("print the summary")? + "\n"
     } else {
-        summary_text::render(&done.summary)
+        let timings = done.summary.timings.as_ref().map(timings_text::render);
+        summary_text::render(&done.summary) + &timings.unwrap_or_default()
     };
     if let Some(aborted) = &done.aborted {
         eprintln!("error: the run was aborted: {aborted}");

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use shoal_scenario::{Overrides, Scenario, library, load, parse};
 
-use crate::cli::{Bus, Changes, RunArgs};
+use crate::cli::{Bus, Changes, Pace, RunArgs};
 use crate::failure::{Failure, While};
-use crate::launch::Order;
+use crate::launch::{HostsOrder, Order};
 use crate::set::Setting;
 
 impl Order {
@@ -33,14 +33,32 @@ impl Order {
             bus: args.bus,
             auvs_per_process: args.auvs_per_process.unwrap_or(NonZeroU32::MIN),
             endpoint: args.endpoint.clone(),
-            pace: args.pace,
+            hosts: HostsOrder::read(args)?,
+            pace: pace(args)?,
+            free_run: args.free_run,
+            timings: args.timings,
             record: args.record.clone(),
         })
+    }
+
+    /// What carries the messages, as summaries say it.
+    pub fn bus_name(&self) -> &'static str {
+        if self.hosts.is_some() { "hosts" } else { self.bus.name() }
     }
 
     /// The scenario, validated, with the command line's changes.
     pub fn scenario(&self) -> Result<Scenario, Failure> {
         scenario(&self.source_name, &self.text, self.seed, &self.changes)
+    }
+}
+
+fn pace(args: &RunArgs) -> Result<Pace, Failure> {
+    match (args.pace, args.free_run) {
+        (Some(Pace::Max), true) => {
+            Err(Failure::usage("--free-run follows the wall clock: give --pace a number, or leave it out"))
+        }
+        (None, true) => Ok(Pace::Factor(1.0)),
+        (pace, _) => Ok(pace.unwrap_or(Pace::Max)),
     }
 }
 

@@ -31,7 +31,7 @@ pub fn list(name: Option<&str>, as_json: bool) -> Result<Exit, Failure> {
                 format!("{line}\n")
             } else {
                 format!(
-                    "{:<14} {auvs:>5} AUVs {duration_s:>5} s  {:<16} {}\n",
+                    "{:<17} {auvs:>5} AUVs {duration_s:>5} s  {:<16} {}\n",
                     scenario.name, scenario.source, scenario.summary
                 )
             };

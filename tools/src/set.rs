@@ -44,6 +44,11 @@ impl Setting {
         self.value.as_str().map_or_else(|| self.value.to_string(), str::to_owned)
     }
 
+    /// Its value as it stands in a scenario.
+    pub fn toml(&self) -> String {
+        self.value.to_string()
+    }
+
     /// The text of a scenario with `settings` made one after the other; all else stays as it is.
     ///
     /// A part of a key that is a number picks one element of an array, counted from 0; where an array meets a name, the

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use shoal_bus::summary::{Assumption, EstimatorLine, Kidnapped, Summary, ViolationLine};
+use shoal_bus::summary::{Assumption, EstimatorLine, FreeRun, Kidnapped, Summary, ViolationLine};
 
 /// A dozen lines that say what a run amounts to.
 pub fn render(summary: &Summary) -> String {
@@ -75,6 +75,13 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         seconds(clock.end_median),
         seconds(clock.end_max)
     )?;
+    if let Some(off) = &summary.off_station_m {
+        writeln!(
+            text,
+            "  station       {:.2} m off at first, {:.2} m at last in the median, {:.2} m at most",
+            off.start_median, off.end_median, off.end_max
+        )?;
+    }
     let lost = &pings.lost;
     let outliers = match pings.outliers {
         0 => String::new(),
@@ -106,11 +113,14 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
         .collect();
     let lost = if lost.is_empty() { "none".to_owned() } else { lost.join(", ") };
     writeln!(text, "                lost: {lost}; still under way: {}", grouped(pings.in_flight))?;
+    let components = if flock.components == 1 { "component" } else { "components" };
     let separation = flock.min_separation_m.map_or("-".to_owned(), |metres| format!("{metres:.2} m"));
     writeln!(
         text,
-        "  flock         polarization {:.2}, least separation {separation}, {} collisions, connectivity {:.2}",
-        flock.polarization, flock.collisions, flock.connectivity
+        "  flock         polarization {:.2}, least separation {separation}, {} collisions, {} {components}",
+        flock.polarization,
+        flock.collisions,
+        grouped(u64::from(flock.components))
     )?;
     for lost in &summary.agents.lost {
         writeln!(
@@ -122,6 +132,12 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
             lost.reason
         )?;
     }
+    for again in &summary.agents.restarted {
+        writeln!(text, "  born again    {} (AUV {}) at {} s", again.name, again.auv, number(again.time_s))?;
+    }
+    if let Some(free_run) = &summary.free_run {
+        write_deadlines(text, free_run)?;
+    }
     if let Some(memory) = &summary.memory {
         write!(text, "  memory        channel {:.1} MiB", memory.channel_rss_kib as f64 / 1024.0)?;
         if memory.auv_pss_kib_median > 0 {
@@ -131,6 +147,27 @@ fn write_all(text: &mut String, summary: &Summary) -> std::fmt::Result {
     }
     let reproducible = if summary.reproducible { "reproducible" } else { "NOT reproducible" };
     writeln!(text, "  digest        {} ({reproducible})", summary.digest)
+}
+
+/// Who was late how often; the first ten of them.
+fn write_deadlines(text: &mut String, free_run: &FreeRun) -> std::fmt::Result {
+    let FreeRun { deadline_misses, worst_s, late, lag_max_s } = free_run;
+    let lag = seconds(*lag_max_s);
+    if *deadline_misses == 0 {
+        return writeln!(text, "  deadlines     none missed; {lag} behind the wall clock at most");
+    }
+    writeln!(
+        text,
+        "  deadlines     {} missed by {}, {} at worst; {lag} behind the wall clock at most",
+        grouped(*deadline_misses),
+        counted(late.len() as u32, "AUV", "AUVs"),
+        seconds(*worst_s),
+    )?;
+    for auv in late.iter().take(10) {
+        let (misses, worst) = (grouped(auv.misses), seconds(auv.worst_s));
+        writeln!(text, "                {} (AUV {}): {misses} missed, {worst} at worst", auv.name, auv.auv)?;
+    }
+    Ok(())
 }
 
 /// Whether there is something to compare, or an estimator whose boxes nobody promises to hold the truth.

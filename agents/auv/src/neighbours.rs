@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use shoal_bus::message::{AuvId, BoundsBox, Fleetmates, Sense, Sensed, box_width};
-use shoal_bus::ping::Payload;
+use shoal_bus::ping::{Frame, GaussianPing, Ping};
 use shoal_bus::time::LocalTime;
 
 /// One neighbour as its last ping showed it: middles of intervals or means, for steering, never for enclosures.
@@ -17,26 +17,27 @@ struct Neighbour {
 }
 
 impl Neighbour {
-    fn new(payload: &Payload, heard: LocalTime) -> Self {
-        let middle = |sides: BoundsBox| Vector3::from(sides.map(|side| side.mid()));
-        match payload {
-            Payload::Intervals(ping) => Self {
-                auv: ping.sender,
-                heard,
-                emission_s: ping.emission_s.mid(),
-                position_m: middle(ping.position_m),
-                velocity_m_s: middle(ping.velocity_m_s),
-                box_width_m: box_width(&ping.position_m),
-            },
-            Payload::Gaussian(ping) => Self {
+    /// The one that a frame shows, if it shows any: most say intervals, and only their middles count.
+    fn heard(frame: &Frame, heard: LocalTime) -> Option<Self> {
+        let Ok(ping) = Ping::decode(frame) else {
+            return GaussianPing::decode(frame).ok().map(|ping| Self {
                 auv: ping.sender,
                 heard,
                 emission_s: ping.emission_s,
                 position_m: ping.position_m.into(),
                 velocity_m_s: ping.velocity_m_s.into(),
                 box_width_m: box_width(&ping.position_box_m()),
-            },
-        }
+            });
+        };
+        let middle = |sides: BoundsBox| Vector3::from(sides.map(|side| side.mid()));
+        Some(Self {
+            auv: ping.sender,
+            heard,
+            emission_s: ping.emission_s.mid(),
+            position_m: middle(ping.position_m),
+            velocity_m_s: middle(ping.velocity_m_s),
+            box_width_m: box_width(&ping.position_m),
+        })
     }
 }
 
@@ -66,8 +67,7 @@ impl Neighbours {
     pub fn listen(&mut self, sensed: &Sensed, forget_ns: i64) {
         for event in &sensed.events {
             let Sense::Heard { frame } = &event.sense else { continue };
-            let Ok(payload) = Payload::decode(frame) else { continue };
-            let neighbour = Neighbour::new(&payload, event.stamp);
+            let Some(neighbour) = Neighbour::heard(frame, event.stamp) else { continue };
             match self.last.binary_search_by_key(&neighbour.auv, |last| last.auv) {
                 Ok(known) if self.last[known].heard <= neighbour.heard => self.last[known] = neighbour,
                 Ok(_) => {}
@@ -101,7 +101,6 @@ pub fn trusted(fleets: &[Fleetmates], auv: AuvId) -> bool {
 #[cfg(test)]
 mod tests {
     use shoal_bus::message::{Bounds, Event};
-    use shoal_bus::ping::{GaussianPing, Ping};
 
     use super::*;
 

@@ -104,7 +104,7 @@ impl Run {
             let mut spent_ns = elapsed_ns(since);
             let acted = sensed.iter().map(|batch| minds[batch.auv.0 as usize].answer(batch)).collect();
             let since = Instant::now();
-            channel.accept(Answers { acted, losses: Vec::new() });
+            channel.accept(sensed, Answers { acted, losses: Vec::new() });
             let entries = channel.chronicle().expect("encodable");
             spent_ns += elapsed_ns(since);
             if window * window_ns >= warm_up_ns {

@@ -104,6 +104,13 @@ fn placed(group: &Group, index: u32, draws: &mut Draws) -> (Vec3, Attitude) {
     let position_m = match &group.start.place {
         Place::Region(region) => Vector3::from_fn(|axis, _| draws.between(region[axis][0], region[axis][1])),
         Place::Points(points) => points.get(index as usize).copied().map_or_else(Vec3::zeros, Vec3::from),
+        Place::Grid(grid) => {
+            let [x, y, z] = grid.point_m(index);
+            let mut beside = |coordinate_m: f64| {
+                draws.between(coordinate_m - grid.scatter_m, coordinate_m + grid.scatter_m)
+            };
+            Vec3::new(beside(x), beside(y), z)
+        }
         Place::OnCircle => {
             let Some((position_m, velocity_m_s)) = circle_start(group, index) else {
                 return (
@@ -179,6 +186,10 @@ fn orders(scenario: &Scenario, group: &Group, index: u32, access: MediumAccess) 
 fn controller(scenario: &Scenario, group: &Group, index: u32) -> Controller {
     match group.controller.clone() {
         model::Controller::Hold => Controller::Hold,
+        model::Controller::Station { speed_m_s } => {
+            let points_m = group.start.place.point_m(index).into_iter().collect();
+            Controller::Waypoints { points_m, speed_m_s, reach_m: 0.0, repeat: false }
+        }
         model::Controller::Circle { centre_m, radius_m, rate_rad_s, phase_rad, heave_m, heave_phase_rad } => {
             let phase_rad = phase_rad + spread_rad(group, index);
             Controller::Circle { centre_m, radius_m, rate_rad_s, phase_rad, heave_m, heave_phase_rad }

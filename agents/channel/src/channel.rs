@@ -18,11 +18,12 @@ use thiserror::Error;
 use crate::acoustics::profile::ProfileError;
 use crate::birth;
 use crate::body::{Body, Vec3};
+use crate::deadlines::{Deadlines, remembered_from};
 use crate::digest::Digest;
-use crate::flock::Flock;
+use crate::flock::{Flock, Flying};
 use crate::grid::Grid;
 use crate::medium::Medium;
-use crate::parallel::{PIECE, share_out, shares_of};
+use crate::parallel::{PIECE, shares_of};
 use crate::sound::Told;
 use crate::tally::{Counts, Excuse, Tally, ToldPings};
 use crate::vehicle::{Planned, Vehicle};
@@ -68,8 +69,8 @@ pub enum ChannelError {
 /// assert_eq!(sensed.len(), 2);
 /// assert!((8..=10).contains(&sensed[0].items.len()));
 /// // Nobody answered: both bodies go on as they were.
-/// channel.accept(Answers::default());
-/// assert!(channel.chronicle()?.len() >= 2 * sensed[0].items.len());
+/// channel.accept(sensed, Answers::default());
+/// assert!(channel.chronicle()?.len() >= 2 * (8 + 8));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Channel {
@@ -79,6 +80,8 @@ pub struct Channel {
     grid: Grid,
     /// Where all vehicles were when the window began.
     places_m: Vec<Vec3>,
+    /// Memory of what was told, to be written anew.
+    batches: Vec<Batch<Sensed>>,
     fastest_m_s: f64,
     lookahead_ns: i64,
     /// One for each piece of the swarm.
@@ -88,11 +91,16 @@ pub struct Channel {
     happened: Vec<Entry>,
     chronicled: Vec<Entry>,
     order: CanonicalOrder,
-    /// Where all vehicles were at moments that are not looked at yet.
-    moments_m: Vec<Vec<Vec3>>,
     flock: Flock,
+    is_flock_watched: bool,
+    /// Moments of the window just advanced, and of those accepted, that are not looked at yet.
+    moments: [Vec<Moment>; 2],
     tally: Tally,
     digest: Digest,
+    /// Only where AUVs run freely.
+    deadlines: Option<Deadlines>,
+    /// The past before this is forgotten.
+    remembered: SimTime,
 }
 
 /// One piece of the swarm's part in a window: memory to work in, and the outcome. What is not taken from it keeps its memory.
@@ -105,12 +113,36 @@ struct Share {
     told: Vec<Told>,
     /// The earliest wavefront that anyone waits for.
     waits_for: Option<u64>,
+    /// Numbers of wavefronts that left for someone and will never be noticed there.
+    beyond: Vec<u64>,
+    /// Where each was when the window ended.
+    places_m: Vec<Vec3>,
+    /// Where each was at the moments to be noted down.
+    moments_m: Vec<Vec3>,
     batches: Vec<Batch<Sensed>>,
-    /// Memory of events that were chronicled, to be written anew: fresh one would cost more than what is written into it.
-    spare: Vec<Vec<Event>>,
+    /// True times of what is in the batches.
+    sensed_at: Vec<SimTime>,
+    spare: Spare,
+    sensed: Vec<Batch<Sensed>>,
     answers: Vec<Batch<Acted>>,
     sightings: Vec<Sighting>,
     losses: Vec<Loss>,
+}
+
+/// Memory to be written anew: fresh one would cost more than what is written into it.
+#[derive(Default)]
+struct Spare {
+    items: Vec<Vec<Sensed>>,
+    events: Vec<Vec<Event>>,
+    #[expect(clippy::vec_box, reason = "entries hold them in boxes, and it is the boxes that are spared")]
+    acted: Vec<Box<Acted>>,
+}
+
+/// Where all vehicles were at one moment, and how those that live moved, where that is told.
+struct Moment {
+    at: SimTime,
+    positions_m: Vec<Vec3>,
+    flying: Option<Flying>,
 }
 
 impl Channel {
@@ -142,10 +174,11 @@ impl Channel {
         }
         Ok(Self {
             scenario: scenario.clone(),
-            tally: Tally::new(vehicles.len()),
+            tally: Tally::new(scenario),
             medium: Medium::new(scenario, &water, &vehicles),
             grid: Grid::default(),
-            places_m: vec![Vec3::zeros(); vehicles.len()],
+            places_m: vehicles.iter().map(|vehicle| vehicle.body.position_at(SimTime::ZERO)).collect(),
+            batches: Vec::new(),
             lookahead_ns: vehicles.iter().map(Vehicle::lookahead_ns).min().unwrap_or(i64::MAX),
             shares: (0..shares_of(vehicles.len())).map(|_| Share::default()).collect(),
             fastest_m_s: vehicles.iter().map(|vehicle| vehicle.ground_speed_m_s).fold(0.0, f64::max),
@@ -155,15 +188,24 @@ impl Channel {
             happened: Vec::new(),
             chronicled: Vec::new(),
             order: CanonicalOrder::default(),
-            moments_m: Vec::new(),
             flock: Flock::default(),
+            is_flock_watched: false,
+            moments: Default::default(),
             digest: Digest::default(),
+            deadlines: None,
+            remembered: SimTime::ZERO,
         })
     }
 
     /// What each AUV is told at birth, sorted by AUV.
     pub fn born(&self) -> Vec<Born> {
         self.vehicles.iter().map(|vehicle| vehicle.born.clone()).collect()
+    }
+
+    /// From now on the chronicle tells once a simulated second how the swarm moves and holds together. Nothing else changes, not the
+    /// digest either.
+    pub fn watch_flock(&mut self) {
+        self.is_flock_watched = true;
     }
 
     /// All AUVs in the order of their first ticks, so that neighbours in the order tend to be due together.
@@ -199,17 +241,20 @@ impl Channel {
         if window_ns > lookahead_ns {
             return Err(ChannelError::Window { window_ns, lookahead_ns });
         }
-        self.move_bodies(to);
-        self.depart();
+        self.remembered = match &self.deadlines {
+            Some(_) => remembered_from(&self.vehicles, self.now),
+            None => self.now,
+        };
+        self.depart(to);
         let batches = self.live(to);
-        self.remember_places(to);
         self.now = to;
         Ok(batches)
     }
 
-    /// Takes the answers to the window just advanced and checks them. What happened in it waits for
-    /// [`chronicle`](Channel::chronicle).
-    pub fn accept(&mut self, answers: Answers) {
+    /// Takes back what [`advance`](Channel::advance) gave, for the chronicle, and takes the answers and checks them. What happened in
+    /// the window waits for [`chronicle`](Channel::chronicle).
+    pub fn accept(&mut self, sensed: Vec<Batch<Sensed>>, answers: Answers) {
+        self.take_back(sensed);
         self.take_answers(answers.acted);
         for loss in answers.losses {
             self.lose(loss);
@@ -218,22 +263,37 @@ impl Channel {
         // Buffers go round: fresh ones would cost more than what is written into them.
         self.happened.clear();
         std::mem::swap(&mut self.happened, &mut self.tally.counts.entries);
+        let [advanced, accepted] = &mut self.moments;
+        accepted.append(advanced);
+    }
+
+    /// As [`accept`](Channel::accept), for AUVs that run freely: answers may be to earlier windows, or come later. `by` is the true
+    /// time that the wall clock stands for; a tick whose answer is not in by its reaction time counts as a miss. What was
+    /// decided too late takes effect now, pings whose time has passed are lost as `late`, and reports are checked against the
+    /// truth of their ticks.
+    pub fn accept_late(&mut self, sensed: Vec<Batch<Sensed>>, answers: Answers, by: SimTime) {
+        self.deadlines.get_or_insert_default().judge(&mut self.vehicles, by.max(self.now));
+        self.accept(sensed, answers);
     }
 
     /// What happened in the window last accepted, in canonical order. It enters the digest here, and separations are looked at,
     /// apart from [`accept`](Channel::accept), so that this can be done while the AUVs are at work on the next window.
     pub fn chronicle(&mut self) -> Result<&[Entry], ChannelError> {
-        for entry in self.chronicled.drain(..) {
-            if let What::Sensed(sensed) = entry.what
-                && let Some(share) = self.shares.get_mut(entry.auv.0 as usize / PIECE)
-            {
-                share.spare.push(sensed.events);
+        for Entry { auv, what, .. } in self.chronicled.drain(..) {
+            let Some(share) = self.shares.get_mut(auv.0 as usize / PIECE) else { continue };
+            match what {
+                What::Sensed(Sensed { mut events, .. }) => {
+                    events.clear();
+                    share.spare.events.push(events);
+                }
+                What::Acted(acted) => share.spare.acted.push(acted),
+                _ => {}
             }
         }
         std::mem::swap(&mut self.chronicled, &mut self.happened);
+        self.look_at_moments();
         self.order.sort(&mut self.chronicled);
         self.digest.update(&self.chronicled)?;
-        self.watch_separation();
         Ok(&self.chronicled)
     }
 
@@ -251,48 +311,28 @@ impl Channel {
 
     /// What the run amounts to, as far as it is chronicled.
     pub fn summary(&self) -> Summary {
-        let poses: Vec<_> = self.vehicles.iter().map(|vehicle| vehicle.body.at(self.now)).collect();
-        let positions_m: Vec<Vec3> = poses.iter().map(|pose| pose.position_m).collect();
-        let velocities_m_s: Vec<Vec3> = poses.iter().map(|pose| pose.ground_velocity_m_s).collect();
-        let range_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.born.modem.range_m).collect();
-        let flock = self.flock.figures(&positions_m, &velocities_m_s, &range_m);
+        let flock = self.flock.figures(&flying(&self.vehicles, self.now));
         let told = |vehicle: &Vehicle| ToldPings { heard: vehicle.pings_heard, windows: vehicle.windows() };
         let told: Vec<_> = self.vehicles.iter().map(told).collect();
         let in_flight = self.medium.in_flight();
-        self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told)
+        let summary =
+            self.tally.summary(&self.scenario, self.now, self.digest.text(), flock, in_flight, &told);
+        let free_run = self.deadlines.as_ref().map(|deadlines| deadlines.summary(&self.vehicles));
+        Summary { reproducible: summary.reproducible && free_run.is_none(), free_run, ..summary }
     }
 
-    /// Moves all bodies to `to`, and lets go what leaves before.
-    fn move_bodies(&mut self, to: SimTime) {
-        let now = self.now;
-        share_out(&mut self.vehicles, &mut self.places_m, &mut self.shares, |vehicles, places_m, share| {
-            share.leapt_m = 0.0;
-            for (vehicle, place_m) in vehicles.iter_mut().zip(places_m) {
-                vehicle.forget_before(now);
-                vehicle.body.integrate(to);
-                *place_m = vehicle.body.position_at(now);
-                share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));
-                while let Some(planned) = vehicle.next_emission(to) {
-                    share.leaving.push((vehicle.born.auv, planned));
-                }
-            }
-        });
-    }
-
-    /// Bodies forget where they were, so whoever looks at it later has to note it down.
-    fn remember_places(&mut self, to: SimTime) {
-        for at in Flock::samples(self.now, to) {
-            self.moments_m.push(self.vehicles.iter().map(|vehicle| vehicle.body.position_at(at)).collect());
-        }
-    }
-
-    fn watch_separation(&mut self) {
-        if self.moments_m.is_empty() {
+    fn look_at_moments(&mut self) {
+        let moments = &mut self.moments[1];
+        if moments.is_empty() {
             return;
         }
         let length_m: Vec<f64> = self.vehicles.iter().map(|vehicle| vehicle.length_m).collect();
-        for positions_m in self.moments_m.drain(..) {
+        for Moment { at, positions_m, flying } in moments.drain(..) {
             self.flock.sample(&positions_m, &length_m);
+            if let Some(flying) = flying {
+                let what = What::Flock(self.flock.figures_lately(&flying));
+                self.chronicled.push(Entry { at, auv: AuvId(0), what });
+            }
         }
     }
 
@@ -303,6 +343,17 @@ impl Channel {
         vehicle.end(self.now);
         self.tally.lost(self.now, loss.auv, &vehicle.born.name, &loss.reason);
     }
+}
+
+/// The AUVs that live.
+fn flying(vehicles: &[Vehicle], at: SimTime) -> Flying {
+    let alive = vehicles.iter().filter(|vehicle| vehicle.alive);
+    alive
+        .map(|vehicle| {
+            let pose = vehicle.body.at(at);
+            (pose.position_m, pose.ground_velocity_m_s, vehicle.born.modem.range_m)
+        })
+        .collect()
 }
 
 /// Why no promise covers what an AUV states at `at` by what it knew at its tick at `known`, if none does.

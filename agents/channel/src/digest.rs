@@ -19,7 +19,7 @@ impl Digest {
                 What::Truth(_) | What::Sensed(_) | What::Acted(_) | What::Traffic(_) => {
                     codec::encode_bare_into(entry, &mut self.bytes)?;
                 }
-                What::Violation(_) | What::Ended(_) => {}
+                What::Violation(_) | What::Ended(_) | What::Flock(_) => {}
             }
         }
         // At once: many blocks are hashed side by side.

@@ -1,9 +1,15 @@
-//! How the swarm moves: distances between bodies, alignment, who could hear whom.
+//! How the swarm moves and holds together: distances between bodies, alignment, who could hear whom.
+
+mod algebraic;
+mod links;
 
 use std::collections::BTreeSet;
 
 use shoal_bus::summary::Flock as Figures;
-use shoal_bus::time::SimTime;
+use shoal_bus::time::{NS_PER_S, SimTime};
+
+pub use algebraic::algebraic_connectivity;
+pub use links::{Graph, Links};
 
 use crate::body::Vec3;
 
@@ -14,8 +20,34 @@ pub const SAMPLE_NS: i64 = 100_000_000;
 #[derive(Default)]
 pub struct Flock {
     min_separation_m: Option<f64>,
+    /// Since it was last asked for.
+    lately_m: Option<f64>,
     touching: BTreeSet<(u32, u32)>,
     collisions: u64,
+}
+
+/// The AUVs that live, at one moment.
+#[derive(Clone, Debug, Default)]
+pub struct Flying {
+    /// Where each is, in metres.
+    positions_m: Vec<Vec3>,
+    /// How each moves over ground, in m/s.
+    velocities_m_s: Vec<Vec3>,
+    /// How far the modem of each is heard, in metres.
+    range_m: Vec<f64>,
+}
+
+impl FromIterator<(Vec3, Vec3, f64)> for Flying {
+    /// From position in metres, velocity over ground in m/s, and range of the modem in metres, of each.
+    fn from_iter<I: IntoIterator<Item = (Vec3, Vec3, f64)>>(of: I) -> Self {
+        let mut flying = Self::default();
+        for (position_m, velocity_m_s, range_m) in of {
+            flying.positions_m.push(position_m);
+            flying.velocities_m_s.push(velocity_m_s);
+            flying.range_m.push(range_m);
+        }
+        flying
+    }
 }
 
 impl Flock {
@@ -23,6 +55,11 @@ impl Flock {
     pub fn samples(from: SimTime, to: SimTime) -> impl Iterator<Item = SimTime> {
         let first = (from.ns() + SAMPLE_NS - 1).div_euclid(SAMPLE_NS);
         (first..).map(|index| SimTime::from_ns(index * SAMPLE_NS)).take_while(move |&at| at < to)
+    }
+
+    /// Whether a sampling time is a whole second.
+    pub fn is_second(at: SimTime) -> bool {
+        at.ns() % NS_PER_S == 0
     }
 
     /// Takes in all positions of one moment; `length_m` are the bodies' lengths.
@@ -33,7 +70,7 @@ impl Flock {
             positions_m[a as usize].x.total_cmp(&positions_m[b as usize].x).then(a.cmp(&b))
         });
         let mut touching = BTreeSet::new();
-        let mut closest_m = self.min_separation_m.unwrap_or(f64::INFINITY);
+        let mut closest_m = self.lately_m.unwrap_or(f64::INFINITY);
         for (rank, &a) in by_x.iter().enumerate() {
             for &b in &by_x[rank + 1..] {
                 let apart = positions_m[b as usize] - positions_m[a as usize];
@@ -48,20 +85,31 @@ impl Flock {
             }
         }
         if closest_m.is_finite() {
-            self.min_separation_m = Some(closest_m);
+            self.lately_m = Some(closest_m);
+            self.min_separation_m = Some(self.min_separation_m.map_or(closest_m, |m| m.min(closest_m)));
         }
         self.collisions += touching.difference(&self.touching).count() as u64;
         self.touching = touching;
     }
 
-    /// The figures of the run, with the alignment and connectivity of its last moment.
-    pub fn figures(&self, positions_m: &[Vec3], velocities_m_s: &[Vec3], range_m: &[f64]) -> Figures {
+    /// The figures of a moment, with the separation of the whole run.
+    pub fn figures(&self, flying: &Flying) -> Figures {
+        let links = Links::between(&flying.positions_m, &flying.range_m);
         Figures {
-            polarization: polarization(velocities_m_s),
+            polarization: polarization(&flying.velocities_m_s),
             min_separation_m: self.min_separation_m,
             collisions: self.collisions,
-            connectivity: connectivity(positions_m, range_m),
+            connectivity: links.fraction(),
+            algebraic_connectivity: algebraic_connectivity(&links),
+            components: links.components(),
+            largest_component: links.largest_component(),
         }
+    }
+
+    /// The figures of a moment, with the separation since this was last asked for.
+    pub fn figures_lately(&mut self, flying: &Flying) -> Figures {
+        let min_separation_m = self.lately_m.take();
+        Figures { min_separation_m, ..self.figures(flying) }
     }
 }
 
@@ -75,53 +123,5 @@ fn polarization(velocities_m_s: &[Vec3]) -> f64 {
     (directions.iter().sum::<Vec3>() / directions.len() as f64).norm()
 }
 
-/// Fraction of all ordered pairs whose second can hear the first.
-fn connectivity(positions_m: &[Vec3], range_m: &[f64]) -> f64 {
-    let count = positions_m.len();
-    if count < 2 {
-        return 0.0;
-    }
-    let mut linked = 0u64;
-    for a in 0..count {
-        for b in a + 1..count {
-            let distance_m = (positions_m[a] - positions_m[b]).norm();
-            linked += u64::from(distance_m <= range_m[a]) + u64::from(distance_m <= range_m[b]);
-        }
-    }
-    linked as f64 / (count * (count - 1)) as f64
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn separation_is_the_closest_pair_and_a_touch_counts_once() {
-        let mut flock = Flock::default();
-        let far = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(5.0, 0.0, 0.0), Vec3::new(0.0, 4.0, 0.0)];
-        flock.sample(&far, &[1.0; 3]);
-        assert_eq!(flock.min_separation_m, Some(4.0));
-        let near = [far[0], Vec3::new(0.5, 0.0, 0.0), far[2]];
-        flock.sample(&near, &[1.0; 3]);
-        flock.sample(&near, &[1.0; 3]);
-        assert_eq!((flock.min_separation_m, flock.collisions), (Some(0.5), 1));
-    }
-
-    #[test]
-    fn alignment_and_connectivity_of_known_flocks() {
-        let north = Vec3::new(0.0, 2.0, 0.0);
-        assert_eq!(polarization(&[north, north * 3.0]), 1.0);
-        assert_eq!(polarization(&[north, -north]), 0.0);
-        let places = [Vec3::zeros(), Vec3::new(10.0, 0.0, 0.0)];
-        assert_eq!(connectivity(&places, &[10.0, 5.0]), 0.5);
-    }
-
-    #[test]
-    fn sampling_times_do_not_depend_on_windows() {
-        let at = |from, to| Flock::samples(SimTime::from_ns(from), SimTime::from_ns(to)).collect::<Vec<_>>();
-        let whole = at(0, 1_000_000_000);
-        let split: Vec<_> = (0..100).flat_map(|i| at(i * 10_000_000, (i + 1) * 10_000_000)).collect();
-        assert_eq!(whole, split);
-        assert_eq!(whole.len(), 10);
-    }
-}
+mod tests;

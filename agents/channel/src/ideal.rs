@@ -32,59 +32,51 @@ impl Ideal {
         self.farthest_m
     }
 
-    /// Adds all who may hear a wavefront to `recipients`; returns how many they are.
+    /// Adds all who may hear a wavefront to `recipients`: not all of them surely are in range.
     ///
     /// `grid` holds all vehicles where they were at some moment since which none moved farther than `moved_m`.
     pub fn spread(
         &self,
         number: u64,
         wavefront: &Wavefront,
-        vehicles: &[Vehicle],
         (grid, moved_m): (&Grid, f64),
         recipients: &mut Vec<Recipient>,
-    ) -> u32 {
-        let sound_speed_m_s = self.sound_speed_m_s;
-        let before = recipients.len();
-        let farthest_m = reach_m(wavefront.range_m, self.fastest_m_s, sound_speed_m_s) + moved_m;
-        for (index, place_m) in grid.near(wavefront.origin_m, farthest_m) {
+    ) {
+        let (sound_speed_m_s, fastest_m_s) = (self.sound_speed_m_s, self.fastest_m_s);
+        let reach_m = reach_m(wavefront.range_m, fastest_m_s, sound_speed_m_s);
+        for (index, place_m) in grid.near(wavefront.origin_m, reach_m + moved_m) {
             let to = AuvId(index as u32);
             if to == wavefront.from {
                 continue;
             }
-            // Where it was is enough for most, and spares a look at the receiver.
-            let farthest_m = (place_m - wavefront.origin_m).norm() + moved_m;
-            let (nearest_m, speed_m_s) = if farthest_m < wavefront.range_m {
-                ((farthest_m - 2.0 * moved_m).max(0.0), self.fastest_m_s)
-            } else {
-                let receiver = &vehicles[index];
-                let place_m = receiver.body.position_at(wavefront.emitted);
-                let (distance_m, speed_m_s) =
-                    ((place_m - wavefront.origin_m).norm(), receiver.ground_speed_m_s);
-                if distance_m > reach_m(wavefront.range_m, speed_m_s, sound_speed_m_s) {
-                    continue;
-                }
-                (distance_m, speed_m_s)
-            };
+            let distance_m = (place_m - wavefront.origin_m).norm();
             let earliest = if self.kidnapped.contains(&to) {
                 wavefront.emitted
             } else {
-                wavefront.earliest_at(nearest_m, speed_m_s, sound_speed_m_s)
+                wavefront.earliest_at((distance_m - moved_m).max(0.0), fastest_m_s, sound_speed_m_s)
             };
-            recipients.push(Recipient { to, flight: Flight { wavefront: number, earliest } });
+            let is_sure = distance_m + moved_m < wavefront.range_m;
+            recipients.push(Recipient { to, flight: Flight { wavefront: number, earliest, is_sure } });
         }
-        (recipients.len() - before) as u32
     }
 
-    /// Takes out all flights that reach their receiver before `to`, and adds them to `told`, in no particular order.
+    /// Takes out all flights that reach their receiver before `to`, and adds them to `told`, in no particular order. The numbers of
+    /// those that left for it but will never come are added to `beyond`.
     pub fn hear(
         &self,
         flights: &mut Vec<Flight>,
         receiver: &Vehicle,
         wavefronts: &Wavefronts,
         to: SimTime,
-        told: &mut Vec<Told>,
+        (told, beyond): (&mut Vec<Told>, &mut Vec<u64>),
     ) {
-        flights.retain(|&Flight { wavefront: number, earliest }| {
+        flights.retain_mut(|Flight { wavefront: number, earliest, is_sure }| {
+            let (number, earliest) = (*number, *earliest);
+            if !*is_sure && self.is_beyond(wavefronts.get(number), receiver) {
+                beyond.push(number);
+                return false;
+            }
+            *is_sure = true;
             if earliest >= to {
                 return true;
             }
@@ -112,5 +104,12 @@ impl Ideal {
             told.push(Told { at: arrival.at, wavefront: number, fate, stamp: None, incidence });
             false
         });
+    }
+
+    /// Whether a receiver was too far away at the emission to come into range in time, whatever it does.
+    fn is_beyond(&self, wavefront: &Wavefront, receiver: &Vehicle) -> bool {
+        let place_m = receiver.body.position_at(wavefront.emitted);
+        let distance_m = (place_m - wavefront.origin_m).norm();
+        distance_m > reach_m(wavefront.range_m, receiver.ground_speed_m_s, self.sound_speed_m_s)
     }
 }

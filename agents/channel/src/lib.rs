@@ -45,6 +45,7 @@ pub mod channel;
 pub mod check;
 pub mod clock;
 pub mod current;
+mod deadlines;
 pub mod digest;
 pub mod draw;
 mod exposure;

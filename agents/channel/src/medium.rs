@@ -20,7 +20,9 @@ pub struct Medium {
     pub wavefronts: Wavefronts,
     /// One for each AUV.
     pub receivers: Vec<Receiver>,
+    /// What leaves in this window, of which so many are on their way.
     departures: Vec<Departure>,
+    spread_until: usize,
     spread: Vec<Vec<Recipient>>,
 }
 
@@ -55,7 +57,7 @@ struct Departure {
     number: u64,
     /// Nobody moved farther than this since the grid was sorted.
     moved_m: f64,
-    /// How many may ever notice it.
+    /// How many others may ever notice it.
     within: u32,
 }
 
@@ -79,8 +81,14 @@ impl Medium {
                 (Level::Ideal(ideal), vehicles.iter().map(|_| Receiver::default()).collect())
             }
         };
-        let (wavefronts, departures, spread) = (Wavefronts::default(), Vec::new(), Vec::new());
-        Self { level, wavefronts, receivers, departures, spread }
+        Self {
+            level,
+            wavefronts: Wavefronts::default(),
+            receivers,
+            departures: Vec::new(),
+            spread_until: 0,
+            spread: Vec::new(),
+        }
     }
 
     /// Whether the modem of `auv` has heard nothing between `since` and `now`, up to which all motion is settled and all earlier
@@ -99,30 +107,48 @@ impl Medium {
 
     /// A wavefront leaves; since the grid was sorted, nobody moved farther than `moved_m`.
     pub fn emit(&mut self, wavefront: Wavefront, moved_m: f64) {
+        if let Some(listener) = &mut self.receivers[wavefront.from.0 as usize].listener {
+            listener.emit(&wavefront);
+        }
         self.departures.push(Departure { number: self.wavefronts.next(), moved_m, within: 0 });
         self.wavefronts.leaves(wavefront);
     }
 
-    /// Sends all that was emitted since the last time to all who may hear it, and tells `departed` of each how many surely do
-    /// not, in the order in which it was emitted.
-    pub fn spread(&mut self, vehicles: &[Vehicle], grid: &Grid, mut departed: impl FnMut(&Wavefront, u32)) {
-        let Self { level, wavefronts, receivers, departures, spread } = self;
-        spread.resize_with(shares_of(departures.len()), Vec::new);
-        // Who may hear a ping does not depend on other pings.
+    /// Sends all that was emitted since the last time to all whom it may touch.
+    pub fn spread(&mut self, grid: &Grid) {
+        let Self { level, wavefronts, receivers, departures, spread_until, spread } = self;
+        let departures = &mut departures[*spread_until..];
+        *spread_until += departures.len();
+        let pieces = shares_of(departures.len());
+        spread.resize_with(spread.len().max(pieces), Vec::new);
+        let spread = &mut spread[..pieces];
+        // Whom a ping may touch does not depend on other pings.
         let mut alone = vec![(); departures.len()];
         share_out(departures, &mut alone, spread, |departures, _, recipients| {
             recipients.clear();
             for Departure { number, moved_m, within } in departures {
-                let near = (grid, *moved_m);
-                *within = level.spread(*number, wavefronts.get(*number), vehicles, near, recipients);
+                let before = recipients.len();
+                level.spread(*number, wavefronts.get(*number), (grid, *moved_m), recipients);
+                *within = (recipients.len() - before) as u32;
             }
         });
         for Recipient { to, flight } in spread.iter().flatten() {
             receivers[to.0 as usize].flights.push(*flight);
         }
-        for Departure { number, within, .. } in departures.drain(..) {
-            departed(wavefronts.get(number), vehicles.len() as u32 - 1 - within);
+    }
+
+    /// Tells `departed` of each wavefront that left in the window, and of how many AUVs will surely never notice it, when all have
+    /// looked: `beyond` has the numbers of those that did not come to one who might have been touched.
+    pub fn departed(&mut self, beyond: impl Iterator<Item = u64>, mut departed: impl FnMut(&Wavefront, u32)) {
+        if let Some(&Departure { number: first, .. }) = self.departures.first() {
+            // Everybody looks in the window in which a wavefront leaves.
+            beyond.for_each(|number| self.departures[(number - first) as usize].within -= 1);
         }
+        let others = self.receivers.len() as u32 - 1;
+        for Departure { number, within, .. } in self.departures.drain(..) {
+            departed(self.wavefronts.get(number), others - within);
+        }
+        self.spread_until = 0;
     }
 
     /// Wavefronts on their way, counted once for each receiver.
@@ -148,36 +174,37 @@ impl Level {
         }
     }
 
-    /// Adds all whom a wavefront may touch to `recipients`; returns how many may ever notice it.
+    /// Adds all others whom a wavefront may touch to `recipients`.
     fn spread(
         &self,
         number: u64,
         wavefront: &Wavefront,
-        vehicles: &[Vehicle],
         near: (&Grid, f64),
         recipients: &mut Vec<Recipient>,
-    ) -> u32 {
+    ) {
         match self {
-            Self::Ideal(ideal) => ideal.spread(number, wavefront, vehicles, near, recipients),
-            Self::Sea(sea) => sea.spread(number, wavefront, vehicles, near, recipients),
+            Self::Ideal(ideal) => ideal.spread(number, wavefront, near, recipients),
+            Self::Sea(sea) => sea.spread(number, wavefront, near, recipients),
         }
     }
 
-    /// Adds all that is settled at one receiver before `to` to `told`, in no particular order.
+    /// Adds all that is settled at one receiver before `to` to `told`, in no particular order, and to `beyond` the numbers of
+    /// wavefronts that might have touched it but never will.
     pub fn hear(
         &self,
         receiver: &mut Receiver,
         vehicle: &mut Vehicle,
         wavefronts: &Wavefronts,
         to: SimTime,
-        told: &mut Vec<Told>,
+        (told, beyond): (&mut Vec<Told>, &mut Vec<u64>),
     ) {
         let Receiver { flights, listener } = receiver;
         match (self, listener) {
-            (Self::Ideal(ideal), _) => ideal.hear(flights, vehicle, wavefronts, to, told),
+            (Self::Ideal(ideal), _) => ideal.hear(flights, vehicle, wavefronts, to, (told, beyond)),
             (Self::Sea(sea), Some(listener)) => {
                 sea.listen(flights, listener, vehicle, wavefronts, to);
                 told.append(&mut listener.told);
+                beyond.append(&mut listener.beyond);
             }
             (Self::Sea(_), None) => {}
         }

@@ -154,36 +154,20 @@ impl Sea {
         self.farthest_m
     }
 
-    /// Adds all whom a wavefront may touch to `recipients`, its emitter among them; returns how many may ever notice it.
+    /// Adds all others whom a wavefront may touch to `recipients`: not all of them will ever notice it.
     ///
     /// `grid` holds all vehicles where they were at some moment since which none moved farther than `moved_m`.
     pub fn spread(
         &self,
         number: u64,
         wavefront: &Wavefront,
-        vehicles: &[Vehicle],
         (grid, moved_m): (&Grid, f64),
         recipients: &mut Vec<Recipient>,
-    ) -> u32 {
-        let mut send = |to| {
-            let flight = Flight { wavefront: number, earliest: wavefront.emitted };
-            recipients.push(Recipient { to, flight });
-        };
-        send(wavefront.from);
-        let mut within = 0;
-        for (index, _) in grid.near(wavefront.origin_m, self.farthest_m + moved_m) {
-            let receiver = &vehicles[index];
-            if receiver.born.auv == wavefront.from {
-                continue;
-            }
-            let distance_m = (receiver.body.position_at(wavefront.emitted) - wavefront.origin_m).norm();
-            let touch = self.touch(wavefront, receiver, distance_m);
-            if let Some((_, touch)) = touch {
-                within += u32::from(touch != Touch::Disturbs);
-                send(receiver.born.auv);
-            }
-        }
-        within
+    ) {
+        let flight = Flight { wavefront: number, earliest: wavefront.emitted, is_sure: false };
+        let near = grid.near(wavefront.origin_m, self.farthest_m + moved_m);
+        let all = near.map(|(index, _)| Recipient { to: AuvId(index as u32), flight });
+        recipients.extend(all.filter(|recipient| recipient.to != wavefront.from));
     }
 
     /// What a wavefront is to a receiver who was `distance_m` away when it left, and how their modems are linked.
@@ -215,14 +199,14 @@ impl Sea {
 
     fn take_up(&self, number: u64, wavefront: &Wavefront, listener: &mut Listener, receiver: &Vehicle) {
         let to = receiver.born.auv;
-        if to == wavefront.from {
-            return listener.emit(wavefront);
-        }
         let place_m = receiver.body.position_at(wavefront.emitted);
         let distance_m = (place_m - wavefront.origin_m).norm();
-        let Some((link, touch)) = self.touch(wavefront, receiver, distance_m) else { return };
+        let Some((link, touch)) = self.touch(wavefront, receiver, distance_m) else {
+            return listener.beyond.push(number);
+        };
         let reason = match touch {
             Touch::Disturbs => {
+                listener.beyond.push(number);
                 let level_db = link.level_db(distance_m, 0.0);
                 return listener.disturb(wavefront, level_db, distance_m, &self.water);
             }

@@ -98,6 +98,8 @@ pub struct Flight {
     pub wavefront: u64,
     /// It does not arrive before this.
     pub earliest: SimTime,
+    /// Whether the receiver was surely in range at the emission; if not, it has to look.
+    pub is_sure: bool,
 }
 
 /// An arrival.

@@ -9,7 +9,7 @@ use shoal_bus::summary::{
     Widths,
 };
 use shoal_bus::time::SimTime;
-use shoal_scenario::model::Scenario;
+use shoal_scenario::model::{Controller, Scenario};
 
 use crate::accuracy::{self, Accuracy};
 use crate::assumption::assumptions;
@@ -40,6 +40,10 @@ pub struct ToldPings {
 pub struct Score {
     widths: Option<ReportWidths>,
     accuracy: Accuracy,
+    /// Where it is to stay, if it is.
+    station_m: Option<Vec3>,
+    /// How far from it it was at its first and last tick.
+    off_station_m: Option<[f64; 2]>,
 }
 
 /// First and last widths that an AUV reported.
@@ -53,6 +57,10 @@ impl Score {
     /// The AUV reported what it believes; the truth at its tick is `position_m` and, true minus local time, `offset_s`.
     pub fn reported(&mut self, report: &Report, position_m: &Vec3, offset_s: f64) {
         self.accuracy.reported(report, position_m, offset_s);
+        if let Some(station_m) = &self.station_m {
+            let now_m = (position_m - station_m).norm();
+            self.off_station_m.get_or_insert([now_m; 2])[1] = now_m;
+        }
         // An unbounded report counts as the widest number there is: summaries are JSON, which has no infinity.
         let widths = [box_width(&report.position_m), report.clock_offset_s.width()];
         let now = widths.map(|width| if width.is_finite() { width } else { f64::MAX });
@@ -61,14 +69,14 @@ impl Score {
 }
 
 impl Tally {
-    /// Nothing counted yet, for so many AUVs.
-    pub fn new(auvs: usize) -> Self {
-        Self {
-            counts: Counts::default(),
-            scores: vec![Score::default(); auvs],
-            lost: Vec::new(),
-            restarted: Vec::new(),
-        }
+    /// Nothing counted yet, of the AUVs of this scenario.
+    pub fn new(scenario: &Scenario) -> Self {
+        let scores = scenario.groups.iter().flat_map(|group| {
+            let keeps = matches!(group.controller, Controller::Station { .. });
+            let station_m = move |index| group.start.place.point_m(index).filter(|_| keeps).map(Vec3::from);
+            (0..group.count).map(move |index| Score { station_m: station_m(index), ..Score::default() })
+        });
+        Self { counts: Counts::default(), scores: scores.collect(), lost: Vec::new(), restarted: Vec::new() }
     }
 
     /// An AUV is gone.
@@ -100,10 +108,10 @@ impl Tally {
             let pick = |of: fn(&ReportWidths) -> [f64; 2]| -> Vec<f64> {
                 self.scores.iter().filter_map(|score| score.widths).map(|widths| of(&widths)[which]).collect()
             };
-            let (first, last) = (pick(|widths| widths.first), pick(|widths| widths.last));
-            let end_max = last.iter().fold(0.0_f64, |a, &b| a.max(b));
-            Widths { start_median: median(first), end_median: median(last), end_max }
+            over(pick(|widths| widths.first), pick(|widths| widths.last))
         };
+        let off_m: Vec<[f64; 2]> = self.scores.iter().filter_map(|score| score.off_station_m).collect();
+        let off = |which: usize| off_m.iter().map(|off_m| off_m[which]).collect();
         Summary {
             format: SUMMARY_FORMAT.to_owned(),
             scenario: scenario.name.clone(),
@@ -122,10 +130,13 @@ impl Tally {
             estimators: accuracy::lines(scenario, &self.accuracy()),
             position_width_m: widths(0),
             clock_width_s: widths(1),
+            off_station_m: (!off_m.is_empty()).then(|| over(off(0), off(1))),
             pings: Pings { in_flight, ..self.counts.pings },
             flock,
             agents: Agents { lost: self.lost.clone(), restarted: self.restarted.clone() },
             memory: None,
+            timings: None,
+            free_run: None,
         }
     }
 
@@ -159,6 +170,12 @@ impl Tally {
     fn accuracy(&self) -> Vec<Accuracy> {
         self.scores.iter().map(|score| score.accuracy).collect()
     }
+}
+
+/// First and last of each AUV.
+fn over(first: Vec<f64>, last: Vec<f64>) -> Widths {
+    let end_max = last.iter().fold(0.0_f64, |a, &b| a.max(b));
+    Widths { start_median: median(first), end_median: median(last), end_max }
 }
 
 /// `GROUP-k` for the k-th AUV of its group.

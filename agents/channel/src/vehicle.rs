@@ -64,7 +64,8 @@ pub struct Vehicle {
     heard: Vec<HeardPing>,
     held: Vec<(LocalTime, SimTime)>,
     planned: VecDeque<Planned>,
-    answered: VecDeque<Tick>,
+    /// Ticks that wait for their answers.
+    pub answered: VecDeque<Tick>,
 }
 
 /// A ping that is booked.
@@ -199,6 +200,11 @@ impl Vehicle {
         self.kidnappings.push(Kidnapping { at, noticed: None });
     }
 
+    /// Whether it is carried elsewhere at any time of the run.
+    pub fn is_ever_kidnapped(&self) -> bool {
+        !self.kidnappings.is_empty()
+    }
+
     /// Whether what it states at `at`, by what it knew at its tick at `known`, may rest on where it was before a kidnapping: it has
     /// not said since that nothing was left of its set.
     pub fn is_kidnapped_at(&self, at: SimTime, known: SimTime) -> bool {
@@ -259,8 +265,11 @@ impl Vehicle {
             return Err(format!("it answered tick {} when asked tick {}", acted.tick, tick.index));
         }
         let is_velocity = |component: &f64| component.is_finite() && component.abs() < 1e6;
-        if !acted.setpoint.velocity_m_s.iter().all(is_velocity) {
-            return Err("its setpoint is not a velocity".to_owned());
+        let mut components = acted.setpoint.velocity_m_s.iter().enumerate();
+        if let Some((axis, wrong)) = components.find(|(_, component)| !is_velocity(component)) {
+            return Err(format!(
+                "its setpoint.velocity_m_s[{axis}] is {wrong:?}, a velocity is finite and below 1e6 m/s"
+            ));
         }
         let ahead_ns = wake.reaction_ns + 2 * wake.period_ns;
         let scheduled = shortest_gap_ns(&orders.access).map_or(0, |gap_ns| ahead_ns / gap_ns) as usize;
@@ -277,10 +286,17 @@ impl Vehicle {
                 ));
             }
             if !(0..=LISTEN_MAX_NS).contains(&ping.listen_ns) {
-                return Err("it booked a ping that listens for no sensible time".to_owned());
+                return Err(format!(
+                    "it booked a ping with listen_ns {}, which is not from 0 to {LISTEN_MAX_NS}",
+                    ping.listen_ns
+                ));
             }
             if ping.at.ns().saturating_sub(tick.stamp.ns()) > ahead_ns + BOOKING_SLACK_NS {
-                return Err("it booked a ping far ahead of its time".to_owned());
+                return Err(format!(
+                    "it booked a ping at {} ns, far ahead of its tick at {} ns",
+                    ping.at.ns(),
+                    tick.stamp.ns()
+                ));
             }
         }
         Ok(())
@@ -294,13 +310,19 @@ impl Vehicle {
         self.planned.insert(place, Planned { at, stamp, listen_ns, frame, booked });
     }
 
-    /// The next booked ping that leaves before `horizon`.
-    pub fn next_emission(&mut self, horizon: SimTime) -> Option<Planned> {
-        if self.planned.front()?.at >= horizon { None } else { self.planned.pop_front() }
+    /// Whether a booked ping leaves before `horizon`.
+    pub fn emits_before(&self, horizon: SimTime) -> bool {
+        self.planned.front().is_some_and(|next| next.at < horizon)
     }
 
-    /// What it senses at its next tick, which comes before the horizon that its body is integrated to.
-    pub fn sense(&mut self) -> (Tick, Sensed) {
+    /// The next booked ping that leaves before `horizon`.
+    pub fn next_emission(&mut self, horizon: SimTime) -> Option<Planned> {
+        if self.emits_before(horizon) { self.planned.pop_front() } else { None }
+    }
+
+    /// What it senses at its next tick, which comes before the horizon that its body is integrated to, written to `events`, which
+    /// are empty.
+    pub fn sense(&mut self, mut events: Vec<Event>) -> (Tick, Sensed) {
         let wake = self.born.wake;
         let stamp = self.stamp_of(self.next_tick);
         let at = self.next_tick_at;
@@ -308,7 +330,6 @@ impl Vehicle {
         let (between_position_m, between_offset_s) =
             self.between.take().unwrap_or_else(|| self.truth_at(self.between_ticks()));
 
-        let mut events = Vec::with_capacity(self.heard.len() + 4);
         // The sensors speak last, so that hardly anything is left to sort.
         self.hand_over_heard(stamp, at, &mut events);
         self.hand_over_held(stamp, at, &mut events);
@@ -370,7 +391,7 @@ impl Vehicle {
         }
         self.between = None;
         self.last_tick_at = now;
-        while self.next_tick_at < now {
+        while self.next_tick_at <= now {
             self.next_tick += 1;
             self.next_tick_at = self.clock.reaches(self.stamp_of(self.next_tick));
         }
@@ -390,8 +411,14 @@ impl Vehicle {
         self.first_tick + tick as i64 * self.born.wake.period_ns
     }
 
+    /// Moves on to `to`, and forgets what lies before `remembered`. A second time changes nothing.
+    pub fn move_on(&mut self, remembered: SimTime, to: SimTime) {
+        self.forget_before(remembered);
+        self.body.integrate(to);
+    }
+
     /// Forgets the past that no later window of true time from `now` on asks for.
-    pub fn forget_before(&mut self, now: SimTime) {
+    fn forget_before(&mut self, now: SimTime) {
         if self.alive && self.between.is_none() && self.between_ticks() < now {
             self.between = Some(self.truth_at(self.between_ticks()));
         }

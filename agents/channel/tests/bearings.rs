@@ -99,17 +99,16 @@ fn run(level: &str, modem: &str, noise: &str) -> (usize, f64) {
     let mut places = Vec::new();
     while channel.now() < channel.end() {
         let to = SimTime::from_ns((channel.now().ns() + 50_000_000).min(channel.end().ns()));
-        let acted = channel
-            .advance(to)
-            .unwrap()
-            .into_iter()
+        let sensed = channel.advance(to).unwrap();
+        let acted = sensed
+            .iter()
             .map(|batch| {
                 let born = &born[batch.auv.0 as usize];
                 let items = batch.items.iter().map(|sensed| answer(born, sensed, &[])).collect();
                 Batch { auv: batch.auv, items }
             })
             .collect();
-        channel.accept(Answers { acted, losses: Vec::new() });
+        channel.accept(sensed, Answers { acted, losses: Vec::new() });
         for entry in channel.chronicle().unwrap() {
             match &entry.what {
                 What::Traffic(traffic) => {
@@ -181,17 +180,16 @@ fn a_neighbour_that_is_elsewhere_is_a_violation() {
         let born = channel.born();
         let position_m = [Bounds::new(east_m[0], east_m[1]), Bounds::new(-90.0, -70.0)];
         let around = [Around { auv: AuvId(auv), position_m }];
-        let acted = channel
-            .advance(SimTime::from_ns(50_000_000))
-            .unwrap()
-            .into_iter()
+        let sensed = channel.advance(SimTime::from_ns(50_000_000)).unwrap();
+        let acted = sensed
+            .iter()
             .filter(|batch| batch.auv == AuvId(0))
             .map(|batch| {
                 let items = batch.items.iter().map(|sensed| answer(&born[0], sensed, &around)).collect();
                 Batch { auv: batch.auv, items }
             })
             .collect();
-        channel.accept(Answers { acted, losses: Vec::new() });
+        channel.accept(sensed, Answers { acted, losses: Vec::new() });
         channel.summary().containment.violations
     };
     // It starts 60 m east and 80 m south of the other.

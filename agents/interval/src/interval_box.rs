@@ -79,6 +79,9 @@ impl<const N: usize> IntervalBox<N> {
 
     /// A vector near the middle, always finite and inside the box; all NaN for the empty box.
     pub fn mid(&self) -> SVector<f64, N> {
+        if let Some(middles) = lanes::middles(&self.sides) {
+            return SVector::from(middles);
+        }
         let empty = self.is_empty();
         SVector::from_fn(|axis, _| if empty { f64::NAN } else { self.sides[axis].mid() })
     }

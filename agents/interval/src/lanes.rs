@@ -1,4 +1,4 @@
-//! Sums and products of several intervals at once, without a branch.
+//! Sums, products and middles of several intervals at once, without a branch.
 //!
 //! An [`Interval`] is kept as two lower bounds, so an operation on `N` intervals is `2 N` times the same operation on numbers,
 //! rounded down. Written as loops over arrays, without branches, it becomes vector instructions. The bits are those of
@@ -88,6 +88,22 @@ pub(crate) fn squares<const N: usize>(a: &[Interval; N]) -> Option<[Interval; N]
         let neg_largest = smaller(lower, neg_upper);
         [smallest, neg_largest].map(|bound| product(bound, bound.abs()))
     })
+}
+
+/// Numbers near the middles of `a[i]`, for all i, by the rules of [`Interval::mid`].
+#[inline(always)]
+pub(crate) fn middles<const N: usize>(a: &[Interval; N]) -> Option<[f64; N]> {
+    let mut middles = [0.0; N];
+    let mut doubt = 0;
+    for (middle, interval) in middles.iter_mut().zip(a) {
+        let (lower, upper) = (interval.lower(), interval.upper());
+        let sum = lower + upper;
+        let half = 0.5 * sum;
+        let above = if half < lower { lower } else { half };
+        *middle = if above > upper { upper } else { above };
+        doubt |= (sum.to_bits() & !SIGN_BIT) + EXPONENT_BIT;
+    }
+    (doubt & SIGN_BIT == 0).then_some(middles)
 }
 
 /// The intervals with these lower bounds and negatives of upper bounds, unless there is doubt about any.

@@ -1,7 +1,7 @@
 //! What a lockstep of processes costs at least on this machine: the same rounds, the same bytes, nobody reads them.
 
 use std::os::fd::{AsFd, OwnedFd};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -34,7 +34,7 @@ pub fn be_one_if_asked() {
     let words: Vec<&str> = words.split(' ').collect();
     let number = |at: usize| words[at].parse::<usize>().unwrap();
     match words[0] {
-        "raw" => answer_raw(&PathBuf::from(words[4]), number(1), Sizes { down: number(2), up: number(3) }),
+        "raw" => answer_raw(Path::new(words[4]), number(1), Sizes { down: number(2), up: number(3) }),
         _ => answer_packets(Sizes { down: number(2), up: number(3) }),
     }
 }
@@ -50,7 +50,9 @@ struct Children(Vec<Child>);
 impl Drop for Children {
     fn drop(&mut self) {
         self.0.iter_mut().for_each(|child| child.kill().unwrap());
-        self.0.iter_mut().for_each(|child| drop(child.wait().unwrap()));
+        for child in &mut self.0 {
+            child.wait().unwrap();
+        }
     }
 }
 
@@ -117,7 +119,7 @@ fn sleep(word: &AtomicU32, value: u32) {
     let _early = futex::wait(word, futex::Flags::empty(), value, None);
 }
 
-fn answer_raw(path: &PathBuf, index: usize, sizes: Sizes) -> ! {
+fn answer_raw(path: &Path, index: usize, sizes: Sizes) -> ! {
     let shared = SharedWords::open(path).unwrap();
     let words = shared.words();
     let (down, up) = words[SLOTS + index * slot(sizes)..][..slot(sizes)].split_at(sizes.down.div_ceil(4));

@@ -1,6 +1,7 @@
 //! The launcher's end: all hosts of a run.
 
 use std::fmt::Display;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
@@ -54,6 +55,8 @@ pub struct HostsFleet {
     losses: Vec<Loss>,
     pub(super) has_begun: bool,
     has_ended: bool,
+    processes: Arc<AtomicU32>,
+    waited: Duration,
     news: Box<dyn FnMut(&str)>,
 }
 
@@ -136,6 +139,8 @@ impl HostsFleet {
             losses: Vec::new(),
             has_begun: false,
             has_ended: false,
+            processes: Arc::default(),
+            waited: Duration::ZERO,
             news: Box::new(news),
         })
     }
@@ -161,8 +166,11 @@ impl HostsFleet {
                 return Ok(());
             }
             // It holds its own sender, so that it never hears the end of the queue.
-            let Ok(event) = self.events.recv() else { return Err(HostsError::Interrupted) };
-            self.take(event).map_err(|_| HostsError::Interrupted)?;
+            let taken = self.events.recv().map(|event| self.take(event));
+            if !matches!(taken, Ok(Ok(()))) {
+                self.end_with(&HostsError::Interrupted.to_string());
+                return Err(HostsError::Interrupted);
+            }
         }
     }
 
@@ -171,9 +179,9 @@ impl HostsFleet {
         HostsInterruptHandle(self.post.clone())
     }
 
-    /// How many processes of AUVs the hosts run.
-    pub fn processes(&self) -> u32 {
-        self.members.iter().map(|member| member.processes).sum()
+    /// How many processes the hosts have started for AUVs, at any time from now on.
+    pub fn processes(&self) -> Arc<AtomicU32> {
+        Arc::clone(&self.processes)
     }
 
     /// Hosts that carry nobody.
@@ -221,6 +229,9 @@ impl HostsFleet {
         match member.line.take(bytes) {
             Heard::Message(body) => match member.take(body, &mut self.acted, &mut self.losses) {
                 Some(Brought::Taken) => {}
+                Some(Brought::Births { processes }) => {
+                    self.processes.fetch_add(processes, Ordering::Relaxed);
+                }
                 Some(Brought::Goodbye(reason)) => {
                     let host = member.join.host.clone();
                     self.dismiss(&host, "");
@@ -257,7 +268,6 @@ impl HostsFleet {
         let reason = format!("host {} {reason}", member.name);
         member.state = State::Gone;
         member.awaits = Awaits::Nothing;
-        member.processes = 0;
         member.pulse.stop();
         let auvs = member.lose_all(&reason, &mut self.losses);
         self.assigned.retain(|(host, _)| *host != index);
@@ -300,7 +310,9 @@ impl HostsFleet {
     }
 
     fn assign(&mut self, index: usize, auvs: &[AuvId], born: &[Born]) -> Result<(), FleetError> {
-        let born: Vec<&Born> = born.iter().filter(|born| auvs.contains(&born.auv)).collect();
+        let mut sorted = auvs.to_vec();
+        sorted.sort_unstable();
+        let born: Vec<&Born> = born.iter().filter(|born| sorted.binary_search(&born.auv).is_ok()).collect();
         let Self { members, session, terms, homes, .. } = self;
         let member = &mut members[index];
         let assignment = Assignment { auvs: auvs.to_vec(), auvs_per_process: terms.auvs_per_process };
@@ -393,12 +405,18 @@ impl Fleet for HostsFleet {
             member.awaits = Awaits::Answers;
         }
         meanwhile();
+        let waiting_since = Instant::now();
         self.wait(STALL_LIMIT)?;
+        self.waited = waiting_since.elapsed();
         let mut answers =
             Answers { acted: std::mem::take(&mut self.acted), losses: std::mem::take(&mut self.losses) };
         answers.acted.sort_by_key(|batch| batch.auv);
         answers.losses.sort_by_key(|loss| loss.auv);
         Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
     }
 
     fn vacancies(&mut self) -> Vec<AuvId> {

@@ -12,6 +12,9 @@ use super::token::random_hex;
 use super::{down_key, reply_key};
 use crate::os::Process;
 
+/// So many may be joining at once: what strangers can make a launcher remember.
+const CANDIDATES_MAX: usize = 1000;
+
 impl HostsFleet {
     /// Answers a handshake.
     pub(super) fn shake_hands(&mut self, bytes: &[u8]) {
@@ -45,6 +48,10 @@ impl HostsFleet {
             Decision::Answer(answer) => {
                 let host = join.host.clone();
                 self.candidates.retain(|candidate| candidate.join.host != host);
+                if self.candidates.len() >= CANDIDATES_MAX {
+                    // Who is still there asks again.
+                    self.candidates.remove(0);
+                }
                 self.candidates.push(Candidate { join, challenge });
                 self.answer(&host, &answer);
             }
@@ -95,7 +102,6 @@ impl HostsFleet {
             state: State::Idle,
             awaits: Awaits::Nothing,
             auvs: Default::default(),
-            processes: 0,
         });
         let role = if self.has_begun { ", as a spare" } else { "" };
         self.tell(&format!("host {name} joined with {slots} slots{role}"));

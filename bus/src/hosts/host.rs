@@ -114,10 +114,12 @@ enum Event {
 
 /// What ends a wait for AUVs when the run is over in the middle of a window.
 #[derive(Clone, Default)]
-struct Interrupt(Arc<Mutex<Option<Box<dyn Fn() + Send>>>>);
+struct Interrupt(Arc<Mutex<Option<Interrupter>>>);
+
+type Interrupter = Box<dyn Fn() + Send>;
 
 impl Interrupt {
-    fn set(&self, interrupt: Box<dyn Fn() + Send>) {
+    fn set(&self, interrupt: Interrupter) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(interrupt);
     }
 

@@ -25,8 +25,6 @@ pub(super) struct Member {
     pub(super) awaits: Awaits,
     /// Its living AUVs, and of how many ticks each owes the answers.
     pub(super) auvs: BTreeMap<AuvId, usize>,
-    /// How many processes it runs for them.
-    pub(super) processes: u32,
 }
 
 /// What a host is doing.
@@ -53,6 +51,8 @@ pub(super) enum Awaits {
 pub(super) enum Brought {
     /// What was awaited, or nothing.
     Taken,
+    /// Its AUVs are born, in so many processes.
+    Births { processes: u32 },
     /// The host leaves, for this reason.
     Goodbye(String),
 }
@@ -82,11 +82,12 @@ impl Member {
         let mut reader = Reader(body);
         match (*tag, self.awaits) {
             (from_host::BORN, Awaits::Births) => {
-                self.processes = reader.number()?;
+                let processes = reader.number()?;
                 let lost = reader.losses()?;
                 reader.ending(())?;
                 self.lose(lost, losses);
                 self.awaits = Awaits::Nothing;
+                return Some(Brought::Births { processes });
             }
             (from_host::ANSWERS, Awaits::Answers) => {
                 let answers = reader.list()?;

@@ -164,10 +164,10 @@ fn insert(config: &mut Config, key: &str, value: &Value) -> Result<(), NetworkEr
 pub(super) fn said(error: &(dyn std::error::Error + Send + Sync)) -> String {
     let text = error.to_string();
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match line.split_once(" at /") {
-        Some((said, _)) => said.trim_end_matches(['.', ' ']).to_owned(),
-        None => line.trim_end_matches('.').to_owned(),
-    }
+    let said = line.split_once(" at /").map_or(line.as_str(), |(said, _)| said);
+    // Behind a list of what it tried, in brackets, is what the system said.
+    let said = said.rsplit_once(": [").map_or(said, |(_, cause)| cause);
+    said.trim_end_matches([']', '.', ' ']).to_owned()
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ pub(crate) fn shown(error: &serde_json::Error, text: &[u8]) -> String {
     let before = String::from_utf8_lossy(&text[end.saturating_sub(BEFORE)..end]);
     match before.trim() {
         "" => brief(what),
-        before => format!("{}, at ...{before}", brief(what)),
+        before => format!("{}, at ...{}", brief(what), brief(before)),
     }
 }
 
@@ -43,7 +43,7 @@ mod tests {
         let error = serde_json::from_slice::<crate::message::Acted>(text).unwrap_err();
         assert_eq!(
             shown(&error, text),
-            "invalid type: null, expected f64, at ...\"setpoint\":{\"velocity_m_s\":[null"
+            "invalid type: null, expected f64, at ...{\"tick\":3, \"setpoint\":{\"velocity_m_s\":[null"
         );
     }
 

@@ -1,6 +1,6 @@
 //! The documentation is what the code is: tables made from the source text of the types, examples from the code that writes messages.
 
-mod examples;
+pub(crate) mod examples;
 mod tables;
 
 use std::path::Path;

@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::foxglove::{Level, Log};
-use super::rows::{OfflineRow, PingRow, ReportRow, TruthRow};
+use super::rows::{FlockRow, OfflineRow, PingRow, ReportRow, TruthRow};
 use super::{BATCH_NS, RecordWriteError, Topic};
 use crate::chronicle::{Truth, Violation};
 use crate::codec;
 use crate::message::{Acted, AuvId, Sensed};
+use crate::summary::Flock;
 use crate::time::{LocalTime, SimTime};
 use crate::traffic::Traffic;
 
@@ -27,6 +28,7 @@ pub(super) struct Batch {
     pings: Rows,
     sensed: Told,
     logs: Vec<Vec<u8>>,
+    flocks: Vec<Vec<u8>>,
 }
 
 impl Batch {
@@ -38,6 +40,7 @@ impl Batch {
             pings: Rows::new("pings", end),
             sensed: Told::new(),
             logs: Vec::new(),
+            flocks: Vec::new(),
         }
     }
 
@@ -90,6 +93,11 @@ impl Batch {
         self.log(&Log::new(at, Level::Warning, name, format!("the AUV is lost: {reason}")))
     }
 
+    pub(super) fn flock(&mut self, at: SimTime, flock: &Flock) -> Result<(), RecordWriteError> {
+        self.flocks.push(serde_json::to_vec(&FlockRow { t_ns: at, flock: *flock })?);
+        Ok(())
+    }
+
     fn log(&mut self, log: &Log) -> Result<(), RecordWriteError> {
         self.logs.push(serde_json::to_vec(log)?);
         Ok(())
@@ -107,6 +115,7 @@ impl Batch {
             .into_iter()
             .map(|log| (Topic::Log, log))
             .chain(rows.into_iter().filter_map(|(topic, rows)| Some((topic, rows.finish()?))))
+            .chain(self.flocks.into_iter().map(|flock| (Topic::Flock, flock)))
             .chain(self.sensed.finish().map(|bytes| (Topic::Sensed, bytes)))
     }
 }

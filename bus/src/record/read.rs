@@ -5,7 +5,7 @@ use std::io::{Read, Seek};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use super::rows::{OfflineRow, PingRow, ReportRow, TruthRow};
+use super::rows::{FlockRow, OfflineRow, PingRow, ReportRow, TruthRow};
 use super::scan::{Ending, Item, Source, scan};
 use super::{Damage, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordReadError, RecordedAuv, Topic};
 use crate::codec;
@@ -36,12 +36,14 @@ pub enum Row {
     Born(Box<Born>),
     /// What is known of one AUV at a tick after the run, from [`Topic::Offline`].
     Offline(OfflineRow),
+    /// How the swarm moves and holds together at one second, from [`Topic::Flock`].
+    Flock(FlockRow),
 }
 
 /// Hands the header and the rows of `topics` to `visit`, in the order of the file, and tells how the file ends.
 ///
 /// What was told at birth comes first. Within a batch (100 ms) all ticks come before all reports, all reports before all pings, and
-/// all pings before what was sensed; each are sorted by time. What was reconstructed after the run comes last.
+/// all pings before the flock and what was sensed; each are sorted by time. What was reconstructed after the run comes last.
 /// Messages of topics that are not asked for are not parsed, but their checksums are verified. Topics that
 /// are for viewers and people have no rows.
 ///
@@ -151,6 +153,7 @@ fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Dam
         Topic::Offline => {
             parse::<Offline>(topic, data)?.offline.into_iter().map(Row::Offline).for_each(visit);
         }
+        Topic::Flock => visit(Row::Flock(parse(topic, data)?)),
         Topic::Auvs | Topic::Poses | Topic::Log | Topic::Summary => {}
     }
     Ok(())

@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::chronicle::Truth;
 use crate::message::{Acted, AuvId, Bounds, BoundsBox, Culprit, Emptied};
+use crate::summary::Flock;
 use crate::time::{LocalTime, SimTime};
 use crate::traffic::{Fate, LossReason, Reception, Traffic};
 
@@ -176,6 +177,16 @@ pub struct OfflineRow {
     pub position_m: [Pair; 3],
     /// Encloses true time minus local time likewise, in seconds.
     pub clock_offset_s: Pair,
+}
+
+/// How the swarm moves and holds together at one whole second: the message of `shoal.Flock/1`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FlockRow {
+    /// True time, in nanoseconds.
+    pub t_ns: SimTime,
+    /// The figures; its least separation is that since the row before.
+    #[serde(flatten)]
+    pub flock: Flock,
 }
 
 /// A neighbour as it is seen from an AUV.

@@ -32,11 +32,13 @@ pub enum Topic {
     Born,
     /// Trajectories reconstructed after the run.
     Offline,
+    /// How the swarm moves and holds together.
+    Flock,
 }
 
 impl Topic {
     /// All topics, in the order of their channels.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Auvs,
         Self::Poses,
         Self::Log,
@@ -47,6 +49,7 @@ impl Topic {
         Self::Summary,
         Self::Born,
         Self::Offline,
+        Self::Flock,
     ];
 
     /// The topic's name in the file.
@@ -62,6 +65,7 @@ impl Topic {
             Self::Summary => "/summary",
             Self::Born => "/born",
             Self::Offline => "/offline",
+            Self::Flock => "/flock",
         }
     }
 
@@ -78,6 +82,7 @@ impl Topic {
             Self::Summary => "shoal.Summary/1",
             Self::Born => "shoal.Born/1",
             Self::Offline => "shoal.Offline/1",
+            Self::Flock => "shoal.Flock/1",
         }
     }
 
@@ -94,6 +99,7 @@ impl Topic {
             Self::Summary => include_str!("../../schemas/shoal.Summary.1.json"),
             Self::Born => include_str!("../../schemas/shoal.Born.1.txt"),
             Self::Offline => include_str!("../../schemas/shoal.Offline.1.json"),
+            Self::Flock => include_str!("../../schemas/shoal.Flock.1.json"),
         }
     }
 

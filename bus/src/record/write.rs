@@ -158,6 +158,7 @@ impl<W: Write> RecordWriter<W> {
             startup_s: None,
             real_time_factor: None,
             memory: None,
+            timings: None,
             ..summary.clone()
         };
         self.write(Topic::Summary, self.written, &serde_json::to_vec(&stored)?)?;
@@ -209,6 +210,7 @@ impl<W: Write> RecordWriter<W> {
             What::Traffic(traffic) => batch.traffic(traffic),
             What::Violation(violation) => batch.violation(at, name, violation),
             What::Ended(reason) => batch.ended(at, name, reason),
+            What::Flock(flock) => batch.flock(at, flock),
         }
     }
 

@@ -30,14 +30,17 @@ const LOOK_AGAIN_AFTER_LOSS: Duration = Duration::from_millis(1);
 pub struct SharedMemoryFleet {
     // The watching thread first: it refers to all the rest.
     watch: Watch,
-    members: Vec<Member>,
+    pub(super) members: Vec<Member>,
     /// Of each group those that are due in this window, as (member, index of its message).
     due: Vec<Vec<(usize, usize)>>,
-    shared: Arc<Shared>,
+    pub(super) shared: Arc<Shared>,
     run: RunDir,
     /// The message at hand.
     bytes: Vec<u8>,
     stall_limit: Duration,
+    pub(super) waited: Duration,
+    /// Who is at work past a deadline, as (member, ticks).
+    pub(super) late: Vec<(usize, usize)>,
 }
 
 impl SharedMemoryFleet {
@@ -77,6 +80,8 @@ impl SharedMemoryFleet {
             run: run.clone(),
             bytes: Vec::new(),
             stall_limit: STALL_LIMIT,
+            waited: Duration::ZERO,
+            late: Vec::new(),
         })
     }
 
@@ -100,7 +105,7 @@ impl SharedMemoryFleet {
         InterruptHandle(Arc::clone(&self.shared))
     }
 
-    fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
+    pub(super) fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
         // Where it is when all ids from 0 on are there.
         if self.members.get(auv.0 as usize).is_some_and(|member| member.auv == auv) {
             return Ok(auv.0 as usize);
@@ -110,7 +115,7 @@ impl SharedMemoryFleet {
     }
 
     /// Takes in the ends that were noticed since the last window.
-    fn bury(&mut self, losses: &mut Vec<Loss>) {
+    pub(super) fn bury(&mut self, losses: &mut Vec<Loss>) {
         for (member, has_ended) in self.members.iter_mut().zip(&self.shared.has_ended) {
             if member.is_alive && has_ended.load(Ordering::Acquire) {
                 member.lose(PROCESS_ENDED, losses);
@@ -163,7 +168,7 @@ impl SharedMemoryFleet {
 
     /// Sends one message to each of these members, group by group: the first group is at work while the next one's are written.
     /// Leaves in `due` who has yet to deal with it.
-    fn send(&mut self, messages: &[(usize, ToAuvRef<'_>)]) -> Result<(), FleetError> {
+    pub(super) fn send(&mut self, messages: &[(usize, ToAuvRef<'_>)]) -> Result<(), FleetError> {
         self.due.iter_mut().for_each(Vec::clear);
         for (at, (index, _)) in messages.iter().enumerate() {
             self.due[self.members[*index].place.group].push((*index, at));
@@ -190,38 +195,41 @@ impl SharedMemoryFleet {
 
     /// Waits until all members of a group that are due have dealt with their message.
     fn await_group(&mut self, group: usize, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
+        let since = Instant::now();
         let due = std::mem::take(&mut self.due[group]);
-        let waited = self.wait(due.iter().map(|(index, _)| *index), losses, |fleet, index| {
-            // Whatever is not the last number is an answer; whether it is the right one is seen when it is read.
-            let last = fleet.members[index].sequence.wrapping_sub(1);
-            fleet.shared.arena.slot(index).up.sequence.load(Ordering::Acquire) != last
-        });
+        let waited = self.wait(due.iter().map(|(index, _)| *index), losses, Self::has_answered);
         self.due[group] = due;
+        self.waited += since.elapsed();
         waited
     }
 
-    /// Reads the answers of a group to the batches.
-    fn gather(&mut self, group: usize, messages: &[(usize, ToAuvRef<'_>)], answers: &mut Answers) {
-        for &(index, at) in &self.due[group] {
-            let member = &mut self.members[index];
-            if !member.is_alive {
-                continue;
-            }
-            let slot = self.shared.arena.slot(index);
-            let found = slot.up.sequence.load(Ordering::Acquire);
-            let acted = if found == member.sequence {
-                long::receive(slot.up, &self.run, Way::Up, member.auv, &mut self.bytes)
-                    .ok_or_else(|| NOT_A_MESSAGE.to_owned())
-                    .and_then(|()| read_acted(&self.bytes, messages[at].1.ticks()))
-            } else {
-                Err(format!("answered message {found} instead of {}", member.sequence))
-            };
-            match acted {
-                Ok(items) => answers.acted.push(Batch { auv: member.auv, items }),
-                Err(reason) => {
-                    slot.dismissed.store(1, Ordering::Release);
-                    member.lose(&reason, &mut answers.losses);
-                }
+    /// Whether a member has dealt with the last message to it.
+    pub(super) fn has_answered(&self, index: usize) -> bool {
+        // Whatever is not the number before is an answer; whether it is the right one is seen when it is read.
+        let before = self.members[index].sequence.wrapping_sub(1);
+        self.shared.arena.slot(index).up.sequence.load(Ordering::Acquire) != before
+    }
+
+    /// Reads the answer of a member to a batch of so many ticks.
+    pub(super) fn read(&mut self, index: usize, ticks: usize, answers: &mut Answers) {
+        let member = &mut self.members[index];
+        if !member.is_alive {
+            return;
+        }
+        let slot = self.shared.arena.slot(index);
+        let found = slot.up.sequence.load(Ordering::Acquire);
+        let acted = if found == member.sequence {
+            long::receive(slot.up, &self.run, Way::Up, member.auv, &mut self.bytes)
+                .ok_or_else(|| NOT_A_MESSAGE.to_owned())
+                .and_then(|()| read_acted(&self.bytes, ticks))
+        } else {
+            Err(format!("answered message {found} instead of {}", member.sequence))
+        };
+        match acted {
+            Ok(items) => answers.acted.push(Batch { auv: member.auv, items }),
+            Err(reason) => {
+                slot.dismissed.store(1, Ordering::Release);
+                member.lose(&reason, &mut answers.losses);
             }
         }
     }
@@ -264,14 +272,30 @@ impl Fleet for SharedMemoryFleet {
         }
         self.send(&messages)?;
         meanwhile();
+        self.waited = Duration::ZERO;
         // In the order of sending: while one group's answers are read, the next groups are at work.
         for group in 0..self.due.len() {
             self.await_group(group, &mut answers.losses)?;
-            self.gather(group, &messages, &mut answers);
+            for at in 0..self.due[group].len() {
+                let (index, message) = self.due[group][at];
+                self.read(index, messages[message].1.ticks(), &mut answers);
+            }
         }
-        answers.acted.sort_unstable_by_key(|batch| batch.auv);
-        answers.losses.sort_by_key(|loss| loss.auv);
+        answers.sort();
         Ok(answers)
+    }
+
+    fn waited(&self) -> Duration {
+        self.waited
+    }
+
+    fn exchange_until(
+        &mut self,
+        sensed: &mut Vec<Batch<Sensed>>,
+        deadline: Instant,
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<Answers, FleetError> {
+        self.exchange_freely(sensed, deadline, meanwhile)
     }
 
     fn end(&mut self) {
@@ -289,7 +313,7 @@ impl Drop for SharedMemoryFleet {
     }
 }
 
-fn failed(cause: impl Display) -> FleetError {
+pub(super) fn failed(cause: impl Display) -> FleetError {
     FleetError::Failed { bus: BUS, cause: cause.to_string() }
 }
 

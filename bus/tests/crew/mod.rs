@@ -328,6 +328,12 @@ impl Crew {
         self.children[(auv / self.each) as usize].id()
     }
 
+    /// Sends a signal to one's process.
+    pub fn signal(&self, auv: u32, signal: rustix::process::Signal) {
+        let pid = rustix::process::Pid::from_raw(self.pid(auv) as i32).unwrap();
+        rustix::process::kill_process(pid, signal).unwrap();
+    }
+
     pub fn kill(&mut self, auv: u32) {
         self.children[(auv / self.each) as usize].kill().unwrap();
     }

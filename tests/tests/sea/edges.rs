@@ -86,7 +86,7 @@ fn run_with_a_death(
         if to.ns() == at_ns {
             answers.losses.push(Loss { auv: dead, reason: "it was meant to".to_owned() });
         }
-        channel.accept(answers);
+        channel.accept(sensed, answers);
         for entry in channel.chronicle().unwrap() {
             if let What::Traffic(traffic) = &entry.what {
                 fates.push((traffic.from.0, entry.at.ns(), traffic.fate.clone()));

@@ -12,62 +12,98 @@ pub struct Figure {
     pub more_is_worse: bool,
     /// Digits after the point: of the number itself, and of mean and spread.
     pub decimals: [usize; 2],
+    /// Whether people see it.
+    pub shown: Shown,
     /// The number; `None` where there is none to tell, as of a ratio of nothing.
     pub of: fn(&Summary) -> Option<f64>,
 }
 
+/// Whether a figure stands in the table for people; the one for programs has them all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// Always.
+    Always,
+    /// When it is other than zero in any run.
+    WhereAny,
+    /// Never.
+    Never,
+}
+
+const fn figure(
+    title: &'static str,
+    name: &'static str,
+    more_is_worse: bool,
+    decimals: [usize; 2],
+    shown: Shown,
+    of: fn(&Summary) -> Option<f64>,
+) -> Figure {
+    Figure { title, name, more_is_worse, decimals, shown, of }
+}
+
 /// Every column of the table.
-pub const FIGURES: [Figure; 8] = [
-    Figure {
-        title: "pings emitted",
-        name: "emitted",
-        more_is_worse: false,
-        decimals: [0, 1],
-        of: |summary| Some(summary.pings.emitted as f64),
-    },
-    Figure {
-        title: "heard",
-        name: "heard",
-        more_is_worse: false,
-        decimals: [0, 1],
-        of: |summary| Some(summary.pings.heard as f64),
-    },
-    Figure {
-        title: "delivery ratio",
-        name: "delivery_ratio",
-        more_is_worse: false,
-        decimals: [3, 3],
-        of: delivery_ratio,
-    },
-    Figure {
-        title: "lost by collision",
-        name: "lost_collision",
-        more_is_worse: true,
-        decimals: [0, 1],
-        of: |summary| Some(summary.pings.lost.collision as f64),
-    },
-    Figure {
-        title: "end width (m)",
-        name: "end_width_median_m",
-        more_is_worse: true,
-        decimals: [2, 2],
-        of: |summary| Some(summary.position_width_m.end_median),
-    },
-    Figure {
-        title: "truth inside",
-        name: "contained_fraction",
-        more_is_worse: false,
-        decimals: [4, 4],
-        of: contained_fraction,
-    },
-    Figure { title: "NEES (4)", name: "nees_mean", more_is_worse: true, decimals: [2, 2], of: nees_mean },
-    Figure {
-        title: "violations",
-        name: "violations",
-        more_is_worse: true,
-        decimals: [0, 1],
-        of: |summary| Some(summary.containment.violations as f64),
-    },
+pub const FIGURES: [Figure; 32] = [
+    figure("pings emitted", "emitted", false, [0, 1], Shown::Always, |run| Some(run.pings.emitted as f64)),
+    figure("heard", "heard", false, [0, 1], Shown::Always, |run| Some(run.pings.heard as f64)),
+    figure("delivery ratio", "delivery_ratio", false, [3, 3], Shown::Always, delivery_ratio),
+    figure("lost by collision", "lost_collision", true, [0, 1], Shown::Always, |run| {
+        Some(run.pings.lost.collision as f64)
+    }),
+    figure("out of range", "lost_range", true, [0, 1], Shown::Never, |run| Some(run.pings.lost.range as f64)),
+    figure("by noise", "lost_noise", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.noise as f64)),
+    figure("half duplex", "lost_half_duplex", true, [0, 1], Shown::WhereAny, |run| {
+        Some(run.pings.lost.half_duplex as f64)
+    }),
+    figure("in shadow", "lost_shadow", true, [0, 1], Shown::WhereAny, |run| {
+        Some(run.pings.lost.shadow as f64)
+    }),
+    figure("asleep", "lost_asleep", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.asleep as f64)),
+    figure("other band", "lost_band", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.band as f64)),
+    figure("held back", "lost_busy", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.busy as f64)),
+    figure("unsent", "lost_unsent", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.unsent as f64)),
+    figure("late", "lost_late", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.late as f64)),
+    figure("to the dead", "lost_dead", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.lost.dead as f64)),
+    figure("outliers", "outliers", true, [0, 1], Shown::WhereAny, |run| Some(run.pings.outliers as f64)),
+    figure("end width (m)", "end_width_median_m", true, [2, 2], Shown::Always, |run| {
+        Some(run.position_width_m.end_median)
+    }),
+    figure("widest (m)", "end_width_max_m", true, [2, 2], Shown::Always, |run| {
+        Some(run.position_width_m.end_max)
+    }),
+    figure("end clock (s)", "end_clock_width_median_s", true, [6, 6], Shown::Never, |run| {
+        Some(run.clock_width_s.end_median)
+    }),
+    figure("widest clock (s)", "end_clock_width_max_s", true, [6, 6], Shown::Never, |run| {
+        Some(run.clock_width_s.end_max)
+    }),
+    figure("off station (m)", "off_station_median_m", true, [2, 2], Shown::WhereAny, |run| {
+        Some(run.off_station_m?.end_median)
+    }),
+    figure("farthest off (m)", "off_station_max_m", true, [2, 2], Shown::WhereAny, |run| {
+        Some(run.off_station_m?.end_max)
+    }),
+    figure("truth inside", "contained_fraction", false, [4, 4], Shown::Always, contained_fraction),
+    figure("NEES (4)", "nees_mean", true, [2, 2], Shown::WhereAny, nees_mean),
+    figure("polarization", "polarization", false, [3, 3], Shown::Always, |run| Some(run.flock.polarization)),
+    figure("separation (m)", "min_separation_m", false, [2, 2], Shown::Always, |run| {
+        run.flock.min_separation_m
+    }),
+    figure("body collisions", "body_collisions", true, [0, 1], Shown::WhereAny, |run| {
+        Some(run.flock.collisions as f64)
+    }),
+    figure("connectivity", "connectivity", false, [4, 4], Shown::Never, |run| Some(run.flock.connectivity)),
+    figure("algebraic", "algebraic_connectivity", false, [3, 3], Shown::Always, |run| {
+        run.flock.algebraic_connectivity
+    }),
+    figure("components", "components", true, [0, 1], Shown::Always, |run| {
+        Some(f64::from(run.flock.components))
+    }),
+    figure("AUVs lost", "auvs_lost", true, [0, 1], Shown::WhereAny, |run| Some(run.agents.lost.len() as f64)),
+    figure("misled", "misled", true, [0, 1], Shown::WhereAny, |run| {
+        Some(run.containment.misled.violations as f64)
+    }),
+    figure("violations", "violations", true, [0, 1], Shown::Always, |run| {
+        Some(run.containment.violations as f64)
+    }),
 ];
 
 /// Receptions that worked, of those that could have: heard and lost within range. Pings that never left (`busy`, `late`) are
@@ -102,20 +138,23 @@ pub struct Figures {
     pub mean: f64,
     /// Standard deviation of the sample; `None` of fewer than two.
     pub spread: Option<f64>,
+    /// The best of them.
+    pub best: f64,
     /// The worst of them.
     pub worst: f64,
 }
 
 impl Figures {
     /// Of these runs; `None` when no run has the figure.
-    pub fn over(figure: &Figure, summaries: &[Summary]) -> Option<Self> {
-        let values: Vec<f64> = summaries.iter().filter_map(figure.of).collect();
-        let first = *values.first()?;
+    pub fn over<'a>(figure: &Figure, runs: impl Iterator<Item = &'a Summary>) -> Option<Self> {
+        let values: Vec<f64> = runs.filter_map(figure.of).collect();
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
         let spread = (values.len() > 1).then(|| (squares / (count - 1.0)).sqrt());
-        let worse = if figure.more_is_worse { f64::max } else { f64::min };
-        Some(Self { mean, spread, worst: values.into_iter().fold(first, worse) })
+        let least = values.iter().copied().reduce(f64::min)?;
+        let greatest = values.iter().copied().reduce(f64::max)?;
+        let (best, worst) = if figure.more_is_worse { (least, greatest) } else { (greatest, least) };
+        Some(Self { mean, spread, best, worst })
     }
 }

@@ -39,8 +39,8 @@ impl Passage {
         let limit = motion.speed_m_s;
         for axis in 0..3 {
             let (before, after) = (stretch.before_m_s[axis], stretch.after_m_s[axis]);
-            roof(axis, -before.lower(), -after.lower(), -limit.lower());
-            roof(axis + 4, before.upper(), after.upper(), limit.upper());
+            roof(2 * axis, -before.lower(), -after.lower(), -limit.lower());
+            roof(2 * axis + 1, before.upper(), after.upper(), limit.upper());
         }
         let drift_m_s = stretch.current_m_s + motion.disturbance_m_s;
         let rate = Interval::ONE + motion.gain;
@@ -75,15 +75,15 @@ impl Passage {
     /// The mean velocities, and all velocities reached, between two moments given in local seconds from the beginning.
     fn velocity(&self, from_s: f64, to_s: f64) -> (IntervalBox<3>, IntervalBox<3>) {
         let (means, mosts) = self.roofs.means_and_mosts(self.slope, from_s, to_s);
-        let spanning = |[x, y, z, _, east, north, up, _]: [f64; 8]| {
-            IntervalBox::spanning(&-Vector3::new(x, y, z), &Vector3::new(east, north, up))
+        let spanning = |[west, east, south, north, down, up, _, _]: [f64; 8]| {
+            IntervalBox::spanning(&-Vector3::new(west, south, down), &Vector3::new(east, north, up))
         };
         (spanning(means), spanning(mosts))
     }
 }
 
 /// `min(rising + slope x, falling - slope x, limit)` in each direction: how large a velocity component can be x seconds into a
-/// stretch. The axes backwards, a place that means nothing, the axes forwards, another: whole vectors for the processor.
+/// stretch: each axis backwards and forwards, and two places that mean nothing, so that there are whole vectors for the processor.
 #[derive(Clone, Copy, Debug)]
 struct Roofs {
     rising: [f64; 8],

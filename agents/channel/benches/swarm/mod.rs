@@ -22,6 +22,8 @@ const SOURCE_LEVEL_DB: f64 = 122.2;
 pub struct Mind {
     reaction_ns: i64,
     period_ns: i64,
+    /// How long its modem listens before each ping; one that is held back is not tried again.
+    listen_ns: i64,
     frame: Frame,
     report: Report,
     /// The next ping that is not booked yet, and the time to the one after; `None` for one that never pings.
@@ -31,8 +33,10 @@ pub struct Mind {
 impl Mind {
     /// The mind of an AUV that pings by its clock, or not at all.
     pub fn new(born: &Born, pings: bool) -> Self {
-        let MediumAccess::Periodic { first, period_ns } = born.orders.access else {
-            panic!("it pings by its clock")
+        let (first, period_ns, listen_ns) = match born.orders.access {
+            MediumAccess::Periodic { first, period_ns } => (first, period_ns, 0),
+            MediumAccess::Csma { first, period_ns, listen_ns, .. } => (first, period_ns, listen_ns),
+            _ => panic!("it pings by its clock"),
         };
         let everywhere_m = [Bounds::new(-1e5, 1e5); 3];
         let whenever_s = Bounds::new(-1e3, 1e3);
@@ -46,6 +50,7 @@ impl Mind {
         Self {
             reaction_ns: born.wake.reaction_ns,
             period_ns: born.wake.period_ns,
+            listen_ns,
             frame: ping.encode().expect("it fits"),
             report: Report {
                 position_m: everywhere_m,
@@ -76,7 +81,7 @@ impl Mind {
         if let Some((at, period_ns)) = &mut self.next_ping {
             while *at < to {
                 if *at >= from {
-                    pings.push(PlannedPing { at: *at, listen_ns: 0, frame: self.frame });
+                    pings.push(PlannedPing { at: *at, listen_ns: self.listen_ns, frame: self.frame });
                 }
                 *at = *at + *period_ns;
             }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use shoal_bus::chronicle::{Enclosure, Violation, What};
 use shoal_bus::lockstep::{Batch, Loss};
-use shoal_bus::message::{Acted, Around, AuvId};
+use shoal_bus::message::{Acted, Around, AuvId, Sensed};
 use shoal_bus::time::SimTime;
 use shoal_bus::traffic::{Fate, LossReason, Traffic};
 
@@ -21,7 +21,27 @@ pub(super) struct Sighting {
     excuse: Option<Excuse>,
 }
 
+/// When answers are taken. In lockstep, their ticks lie between `begun` and `now`, and what they decide beyond.
+#[derive(Clone, Copy)]
+struct Moment {
+    now: SimTime,
+    /// The beginning of the window, where what is late is told.
+    begun: SimTime,
+    /// The past before this is forgotten.
+    remembered: SimTime,
+}
+
 impl Channel {
+    /// Takes back what the AUVs were told.
+    pub(super) fn take_back(&mut self, mut sensed: Vec<Batch<Sensed>>) {
+        for batch in sensed.drain(..) {
+            if let Some(share) = self.shares.get_mut(batch.auv.0 as usize / PIECE) {
+                share.sensed.push(batch);
+            }
+        }
+        self.batches = sensed;
+    }
+
     /// Takes what the AUVs answer to their ticks, each for itself.
     pub(super) fn take_answers(&mut self, answers: Vec<Batch<Acted>>) {
         for batch in answers {
@@ -29,13 +49,15 @@ impl Channel {
                 share.answers.push(batch);
             }
         }
+        let moment = Moment { now: self.now, begun: self.accepted, remembered: self.remembered };
         let scores = &mut self.tally.scores;
         share_out(&mut self.vehicles, scores, &mut self.shares, |vehicles, scores, share| {
+            chronicle_senses(share);
             for Batch { auv, items } in std::mem::take(&mut share.answers) {
                 let index = auv.0 as usize % PIECE;
                 if let (Some(vehicle), Some(score)) = (vehicles.get_mut(index), scores.get_mut(index)) {
                     let answered =
-                        items.into_iter().try_for_each(|acted| answer(vehicle, score, acted, share));
+                        items.into_iter().try_for_each(|acted| answer(vehicle, score, acted, share, moment));
                     share.losses.extend(answered.err().map(|reason| Loss { auv, reason }));
                 }
             }
@@ -49,8 +71,26 @@ impl Channel {
     }
 }
 
+/// Enters what was told in the window.
+fn chronicle_senses(share: &mut Share) {
+    let Share { counts, sensed, sensed_at, spare, .. } = share;
+    let mut sensed_at = sensed_at.drain(..);
+    for Batch { auv, mut items } in sensed.drain(..) {
+        for (sensed, at) in items.drain(..).zip(&mut sensed_at) {
+            counts.happened(at, auv, What::Sensed(sensed));
+        }
+        spare.items.push(items);
+    }
+}
+
 /// Takes one answer: checks its report, books its setpoint and pings. The reason is why the AUV has lost its place.
-fn answer(vehicle: &mut Vehicle, score: &mut Score, acted: Acted, share: &mut Share) -> Result<(), String> {
+fn answer(
+    vehicle: &mut Vehicle,
+    score: &mut Score,
+    acted: Acted,
+    share: &mut Share,
+    moment: Moment,
+) -> Result<(), String> {
     if !vehicle.alive {
         return Ok(());
     }
@@ -63,7 +103,8 @@ fn answer(vehicle: &mut Vehicle, score: &mut Score, acted: Acted, share: &mut Sh
     let wake = vehicle.born.wake;
     let takes_effect = tick.stamp + wake.reaction_ns;
     let velocity_m_s = Vector3::from(acted.setpoint.velocity_m_s);
-    vehicle.body.steer(vehicle.clock.reaches(takes_effect), velocity_m_s);
+    let told_at = tick.at.max(moment.begun);
+    vehicle.body.steer(vehicle.clock.reaches(takes_effect).max(moment.now), velocity_m_s);
     let offset_s = (tick.at.ns() - tick.stamp.ns()) as f64 * 1e-9;
     let report = &acted.report;
     let (promises, excuse) = (promises(&vehicle.born), excuse(vehicle, tick.at, tick.at));
@@ -76,28 +117,35 @@ fn answer(vehicle: &mut Vehicle, score: &mut Score, acted: Acted, share: &mut Sh
             .position(&report.slice.position_m, &tick.between_position_m)
             .time(&report.slice.clock_offset_s, tick.between_offset_s)
             .violation();
-        counts.check(auv, tick.at, at_tick, excuse);
-        counts.check(auv, tick.at, between_ticks, excuse);
+        counts.check(auv, told_at, at_tick, excuse);
+        counts.check(auv, told_at, between_ticks, excuse);
         if report.emptied.is_some() {
-            counts.check(auv, tick.at, Some(check::nothing(Enclosure::Emptied)), excuse);
+            counts.check(auv, told_at, Some(check::nothing(Enclosure::Emptied)), excuse);
             counts.noticed_after_ns.extend(vehicle.notices(tick.at));
         }
     }
     score.reported(report, &tick.pose.position_m, offset_s);
     for (index, ping) in acted.pings.iter().enumerate() {
-        if ping.at < takes_effect {
+        if ping.at < takes_effect || vehicle.clock.reaches(ping.at) < moment.now {
             // It never left, so it has no number but its place in the answer.
             let sequence = index as u32;
             let fate = Fate::lost(None, LossReason::Late, 0.0);
-            counts.traffic(auv, Traffic { at: tick.at, from: auv, sequence, fate });
+            counts.traffic(auv, Traffic { at: told_at, from: auv, sequence, fate });
         } else {
             vehicle.plan(ping.clone(), tick.at);
         }
     }
-    if promises && !report.around.is_empty() {
+    if promises && !report.around.is_empty() && tick.at >= moment.remembered {
         share.sightings.push(Sighting { entry: counts.entries.len(), tick, excuse });
     }
-    counts.happened(tick.at, auv, What::Acted(Box::new(acted)));
+    let acted = match share.spare.acted.pop() {
+        Some(mut spare) => {
+            *spare = acted;
+            spare
+        }
+        None => Box::new(acted),
+    };
+    counts.happened(told_at, auv, What::Acted(acted));
     Ok(())
 }
 
@@ -111,7 +159,7 @@ fn check_sightings(share: &mut Share, vehicles: &[Vehicle]) {
             let Some(&around) = acted.report.around.get(index) else { break };
             let violation = check_around(&around, &tick, vehicles);
             let excuse = excuse_around(auv, &around, tick.at, vehicles).or(excuse);
-            counts.check(auv, tick.at, violation, excuse);
+            counts.check(auv, counts.entries[entry].at, violation, excuse);
         }
     }
 }

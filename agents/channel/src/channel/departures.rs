@@ -9,12 +9,14 @@ use shoal_bus::traffic::{Fate, LossReason, Traffic};
 use super::{Channel, excuse, promises};
 use crate::body::Vec3;
 use crate::check::{self, Check};
+use crate::parallel::share_out;
 use crate::sound::Wavefront;
 use crate::vehicle::Planned;
 
 impl Channel {
-    /// All pings that leave in the window to which the bodies have moved.
-    pub(super) fn depart(&mut self) {
+    /// All pings that leave before `to`. Bodies that emit move to there, the others may wait for their turn.
+    pub(super) fn depart(&mut self, to: SimTime) {
+        self.let_go(to);
         let mut leaving: Vec<(AuvId, Planned)> = Vec::new();
         for share in &mut self.shares {
             leaving.append(&mut share.leaving);
@@ -29,7 +31,7 @@ impl Channel {
             leaving.sort_by_key(|&(auv, planned)| (planned.at, auv));
             for (from, planned) in leaving {
                 self.emit(from, planned, leapt_m);
-                self.spread();
+                self.medium.spread(&self.grid);
             }
         } else {
             // Otherwise only an emitter's own order counts, and neighbours in space share neighbours in memory.
@@ -37,8 +39,25 @@ impl Channel {
             for (from, planned) in leaving {
                 self.emit(from, planned, leapt_m);
             }
-            self.spread();
+            self.medium.spread(&self.grid);
         }
+    }
+
+    fn let_go(&mut self, to: SimTime) {
+        let (now, remembered) = (self.now, self.remembered);
+        let receivers = &mut self.medium.receivers;
+        share_out(&mut self.vehicles, receivers, &mut self.shares, |vehicles, _, share| {
+            share.leapt_m = 0.0;
+            for vehicle in vehicles {
+                if vehicle.is_ever_kidnapped() || vehicle.emits_before(to) {
+                    vehicle.move_on(remembered, to);
+                    share.leapt_m = share.leapt_m.max(vehicle.body.leapt_since(now));
+                }
+                while let Some(planned) = vehicle.next_emission(to) {
+                    share.leaving.push((vehicle.born.auv, planned));
+                }
+            }
+        });
     }
 
     /// One ping that leaves; kidnappers carried nobody farther than `leapt_m` since `now`.
@@ -80,10 +99,11 @@ impl Channel {
         }
     }
 
-    /// Sends what was emitted to whom it may touch.
-    fn spread(&mut self) {
+    /// Tells of all that left in the window, when it is known who will never notice it.
+    pub(super) fn tell_departures(&mut self) {
         let counts = &mut self.tally.counts;
-        self.medium.spread(&self.vehicles, &self.grid, |wavefront, beyond_range| {
+        let beyond = self.shares.iter_mut().flat_map(|share| share.beyond.drain(..));
+        self.medium.departed(beyond, |wavefront, beyond_range| {
             let &Wavefront { from, sequence, emitted: at, origin_m, box_width_m, packet_ns, .. } = wavefront;
             let fate = Fate::Emitted {
                 position_m: origin_m.into(),

@@ -23,9 +23,9 @@ impl Channel {
     ///
     /// let (source_name, text) = shoal_scenario::load("two-circles")?;
     /// let mut channel = Channel::new(&shoal_scenario::parse(&source_name, &text)?)?;
-    /// channel.advance(SimTime::from_ns(9_000_000))?;
+    /// let sensed = channel.advance(SimTime::from_ns(9_000_000))?;
     /// let loss = Loss { auv: AuvId(1), reason: "its process ended".into() };
-    /// channel.accept(Answers { acted: Vec::new(), losses: vec![loss] });
+    /// channel.accept(sensed, Answers { acted: Vec::new(), losses: vec![loss] });
     /// let reborn = channel.revive(&[AuvId(0), AuvId(1)]);
     /// assert_eq!(reborn.len(), 1);
     /// assert!(reborn[0].wake.first_tick > reborn[0].birth);

@@ -23,6 +23,8 @@ pub struct Listener {
     ear: Option<Ear>,
     /// What is settled and was not taken yet.
     pub told: Vec<Told>,
+    /// Numbers of wavefronts that left for it and that it will never notice.
+    pub beyond: Vec<u64>,
     duty_cycle: Option<DutyCycle>,
     /// What it is told about the speed of sound, in m/s.
     stated_m_s: Bounds,
@@ -79,6 +81,7 @@ impl Listener {
                 auv,
                 ear,
                 told: Vec::new(),
+                beyond: Vec::new(),
                 duty_cycle: group.modem.duty_cycle,
                 stated_m_s: vehicle.born.modem.sound_speed_m_s,
                 packets: Vec::new(),

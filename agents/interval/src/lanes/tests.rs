@@ -76,6 +76,13 @@ proptest! {
     }
 
     #[test]
+    fn middles_are_those_of_single_intervals(a in any_box()) {
+        let each = a.sides().map(Interval::mid);
+        let expected = if a.is_empty() { [f64::NAN; 3] } else { each };
+        prop_assert_eq!(<[f64; 3]>::from(a.mid()).map(f64::to_bits), expected.map(f64::to_bits));
+    }
+
+    #[test]
     fn boxes_of_numbers_are_those_of_single_intervals(one in number(), other in number(), radius in number()) {
         let both = IntervalBox::spanning(&[one; 2].into(), &[other, f64::NAN].into());
         prop_assert_eq!(both.sides(), [Interval::spanning(one, other), Interval::ENTIRE]);

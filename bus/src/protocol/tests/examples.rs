@@ -197,7 +197,7 @@ fn sensed() -> Sensed {
     Sensed { tick: 8, stamp, events }
 }
 
-fn acted() -> Acted {
+pub fn acted() -> Acted {
     let frame = Frame::new(ping().encode().unwrap().bytes()).unwrap();
     let position_m = [around(100.5, 1.0), around(70.25, 1.0), around(-1.25, 0.1)];
     let clock_offset_s = around(0.0, 1.5e-6);

@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use super::synthetic::{header, run, write};
 use crate::chronicle::What;
-use crate::record::rows::{PingRow, TruthRow};
+use crate::record::rows::{FlockRow, PingRow, TruthRow};
 use crate::record::{Damage, Ending, RecordReadError, Row, Topic, read_rows};
 
 fn read(file: &[u8], topics: &[Topic]) -> Result<(Vec<Row>, Ending), RecordReadError> {
@@ -38,6 +38,12 @@ fn rows_are_those_that_were_written() {
         _ => None,
     });
     assert!(pings.into_iter().eq(crossed));
+    let (flock, _) = read(&file, &[Topic::Flock]).unwrap();
+    let watched = entries.iter().filter_map(|entry| match entry.what {
+        What::Flock(flock) => Some(Row::Flock(FlockRow { t_ns: entry.at, flock })),
+        _ => None,
+    });
+    assert!(flock[1..].iter().cloned().eq(watched) && flock.len() == 3);
     let (reports, _) = read(&file, &[Topic::Reports]).unwrap();
     assert!(reports[1..].iter().all(|row| matches!(row, Row::Report(_))));
     assert_eq!(

@@ -50,10 +50,13 @@ pub fn summary_with(auvs: u32, end_max: f64) -> Summary {
         containment: Containment { checks: 42, violations: 2, ..Containment::default() },
         position_width_m: Widths::default(),
         clock_width_s: Widths { end_max, ..Widths::default() },
+        off_station_m: Some(Widths::default()),
         pings: Pings::default(),
         flock: Flock::default(),
         agents: Agents::default(),
         memory: Some(Memory::default()),
+        timings: None,
+        free_run: None,
     }
 }
 
@@ -99,6 +102,8 @@ pub fn one_second(auvs: u32, second: i64) -> Vec<Entry> {
         }
         pings_of(AuvId(auv), auvs, begin, second as u32, &mut noise, &mut entries);
     }
+    let flock = Flock { polarization: 0.25, components: 3, largest_component: 5, ..Flock::default() };
+    entries.push(Entry { at: SimTime::from_ns(begin), auv: AuvId(0), what: What::Flock(flock) });
     // Stable, so simultaneous events of one AUV and kind keep their order.
     entries.sort_by_key(|entry| (entry.at, entry.auv, entry.what.rank()));
     entries
