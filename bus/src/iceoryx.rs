@@ -29,41 +29,28 @@ pub(crate) struct Limits {
     pub(crate) overflow: bool,
 }
 
-/// The islands of a run: nodes and services of one do not see those of the other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Island {
-    /// The channel and its AUVs.
-    Agents,
-    /// The tap and its observers, who come, and are killed, as they like.
-    Tap,
-}
-
-/// This process's node on an island of `run`.
-pub(crate) fn node(run: &RunDir, island: Island) -> Result<Node<ipc::Service>, Cause> {
+/// This process's node on the island of `run`.
+pub(crate) fn node(run: &RunDir) -> Result<Node<ipc::Service>, Cause> {
     set_log_level(LogLevel::Error);
     NodeBuilder::new()
-        .config(&config(run, island)?)
+        .config(&config(run)?)
         .signal_handling_mode(SignalHandlingMode::Disabled)
         .create::<ipc::Service>()
         .map_err(|error| format!("no node: {error}"))
 }
 
-fn config(run: &RunDir, island: Island) -> Result<Config, Cause> {
-    let (folder, prefix) = match island {
-        Island::Agents => (run.iceoryx_root(), run.prefix()),
-        Island::Tap => (run.path().join("tap"), format!("{}tap_", run.prefix())),
-    };
+fn config(run: &RunDir) -> Result<Config, Cause> {
+    let (folder, prefix) = (run.path().join("tap"), format!("{}tap_", run.prefix()));
     let root = folder.to_str().and_then(|root| Path::new(root.as_bytes()).ok());
     let root = root.ok_or_else(|| format!("{} cannot be its root path", folder.display()))?;
     let mut config = Config::default();
     config.global.set_root_path(&root);
     config.global.prefix = FileName::new(prefix.as_bytes()).map_err(|error| format!("prefix: {error:?}"))?;
-    // Each scan looks at every node of the run: 100 s for the start of a thousand processes. Taps are few, and the dead
-    // would take the places of the living.
-    config.global.node.cleanup_dead_nodes_on_creation = island == Island::Tap;
+    // Observers come, and are killed, as they like: the dead would take the places of the living.
+    config.global.node.cleanup_dead_nodes_on_creation = true;
     config.global.node.cleanup_dead_nodes_on_destruction = false;
     config.global.service.cleanup_dead_nodes_on_open = false;
-    // A thousand processes that start on two cores wait for one another longer than the usual second.
+    // On a machine where a thousand processes start, one waits for another longer than the usual second.
     config.global.creation_timeout = Duration::from_secs(30);
     Ok(config)
 }
@@ -93,26 +80,13 @@ fn service_name(name: &str) -> Result<ServiceName, Cause> {
     ServiceName::new(name).map_err(|error| format!("service name {name}: {error}"))
 }
 
-/// How long samples may be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Length {
-    /// As long as this, usually: memory grows by itself, and everyone who reads pays 300 KiB for each publisher.
-    Expected(usize),
-    /// Never longer. Memory that is not written to is not used.
-    Limit(usize),
-}
-
-/// A publisher that never waits for a subscriber.
-pub(crate) fn publisher(service: &Bytes, length: Length) -> Result<BytesPublisher, Cause> {
-    let (bytes, strategy) = match length {
-        Length::Expected(bytes) => (bytes, AllocationStrategy::PowerOfTwo),
-        Length::Limit(bytes) => (bytes, AllocationStrategy::Static),
-    };
+/// A publisher that never waits for a subscriber. Its samples are usually as long as `expected`; memory grows by itself.
+pub(crate) fn publisher(service: &Bytes, expected: usize) -> Result<BytesPublisher, Cause> {
     service
         .publisher_builder()
         .max_loaned_samples(1)
-        .initial_max_slice_len(bytes)
-        .allocation_strategy(strategy)
+        .initial_max_slice_len(expected)
+        .allocation_strategy(AllocationStrategy::PowerOfTwo)
         .backpressure_strategy(BackpressureStrategy::DiscardData)
         .create()
         .map_err(|error| format!("publisher: {error}"))

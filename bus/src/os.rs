@@ -3,6 +3,7 @@
 
 use std::fs::{File, OpenOptions};
 use std::io;
+use std::num::NonZeroU32;
 use std::os::fd::{BorrowedFd, OwnedFd, RawFd};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
@@ -77,6 +78,38 @@ impl Drop for SharedWords {
             unsafe { rustix::mm::munmap(self.start.as_ptr().cast(), self.count * size_of::<AtomicU32>()) };
         debug_assert!(unmapped.is_ok());
     }
+}
+
+/// How a sleep ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slept {
+    /// Somebody woke the sleeper, or there was no need to sleep, or no reason at all.
+    Woken,
+    /// The time was over.
+    Out,
+}
+
+/// Sleeps while `word` is `value`, at most for `limit`, and is woken by [`wake_these`] if that names a bit of `bits`. May also return
+/// early: look again.
+pub fn sleep_as(word: &AtomicU32, value: u32, bits: u32, limit: Duration) -> io::Result<Slept> {
+    let bits = NonZeroU32::new(bits).ok_or(io::ErrorKind::InvalidInput)?;
+    if word.load(Ordering::Acquire) != value {
+        return Ok(Slept::Woken);
+    }
+    let now = rustix::time::clock_gettime(rustix::time::ClockId::Monotonic);
+    let deadline = timespec(limit).checked_add(now);
+    match futex::wait_bitset(word, futex::Flags::empty(), value, deadline.as_ref(), bits) {
+        Ok(()) | Err(rustix::io::Errno::AGAIN | rustix::io::Errno::INTR) => Ok(Slept::Woken),
+        Err(rustix::io::Errno::TIMEDOUT) => Ok(Slept::Out),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Wakes those who sleep on `word` as one of `bits`, in all processes.
+pub fn wake_these(word: &AtomicU32, bits: u32) -> io::Result<()> {
+    let Some(bits) = NonZeroU32::new(bits) else { return Ok(()) };
+    futex::wake_bitset(word, futex::Flags::empty(), i32::MAX as u32, bits)?;
+    Ok(())
 }
 
 /// Sleeps while `word` is `value`, at most for `limit`. May also return early: look again.

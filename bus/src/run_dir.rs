@@ -5,6 +5,8 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 
+use crate::message::AuvId;
+
 /// Where POSIX shared memory lives on Linux.
 const SHARED_MEMORY: &str = "/dev/shm";
 
@@ -91,14 +93,14 @@ impl RunDir {
         format!("shoal_{}_", self.id)
     }
 
-    /// iceoryx2's root path.
-    pub fn iceoryx_root(&self) -> PathBuf {
-        self.path.join("iox2")
+    /// The arena of the shared-memory transport.
+    pub fn arena(&self) -> PathBuf {
+        self.path.join("arena")
     }
 
-    /// The control block of the shared-memory transport.
-    pub fn control_block(&self) -> PathBuf {
-        self.path.join("control")
+    /// A message to (or from, when it goes `up`) this AUV that is too long for the arena.
+    pub fn long_message(&self, up: bool, auv: AuvId) -> PathBuf {
+        self.path.join(format!("{}-{auv}", if up { "up" } else { "down" }))
     }
 
     /// The socket of the zenoh transport.

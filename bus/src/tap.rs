@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::codec;
-use crate::iceoryx::{self, Bytes, BytesPublisher, BytesSubscriber, Island, Length, Limits};
+use crate::iceoryx::{self, Bytes, BytesPublisher, BytesSubscriber, Limits};
 use crate::os::keep_descriptors_from_children;
 use crate::run_dir::RunDir;
 use crate::traffic::Traffic;
@@ -96,8 +96,8 @@ impl TapPublisher {
 
     fn try_create(run: &RunDir) -> Result<Self, String> {
         let limits = Limits { publishers: 1, subscribers: TAPS_MAX, buffer: LAG_MAX, overflow: true };
-        let service = iceoryx::create(&iceoryx::node(run, Island::Tap)?, SERVICE, limits)?;
-        let publisher = iceoryx::publisher(&service, Length::Expected(EXPECTED_BATCH_BYTES))?;
+        let service = iceoryx::create(&iceoryx::node(run)?, SERVICE, limits)?;
+        let publisher = iceoryx::publisher(&service, EXPECTED_BATCH_BYTES)?;
         keep_descriptors_from_children().map_err(|error| format!("descriptors: {error}"))?;
         Ok(Self { publisher, service, batches: 0, events: 0 })
     }
@@ -151,7 +151,7 @@ pub struct TapSubscriber {
 impl TapSubscriber {
     /// Attaches to the tap of `run`: sees what is published from now on.
     pub fn attach(run: &RunDir) -> Result<Self, TapError> {
-        let attached = || iceoryx::subscriber(&iceoryx::open(&iceoryx::node(run, Island::Tap)?, SERVICE)?);
+        let attached = || iceoryx::subscriber(&iceoryx::open(&iceoryx::node(run)?, SERVICE)?);
         Ok(Self { subscriber: attached().map_err(TapError::Setup)?, next: None, missed: 0 })
     }
 

@@ -15,6 +15,17 @@ pub(crate) enum ToAuvRef<'a> {
     End,
 }
 
+impl ToAuvRef<'_> {
+    /// How many ticks it asks to be answered.
+    #[cfg(feature = "iceoryx2")]
+    pub(crate) fn ticks(&self) -> usize {
+        match self {
+            Self::Sensed(items) => items.len(),
+            Self::Born(_) | Self::End => 0,
+        }
+    }
+}
+
 /// Why an AUV that sent garbage is lost.
 pub(crate) const NOT_A_MESSAGE: &str = "sent bytes that are not a message";
 

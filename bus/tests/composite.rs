@@ -12,7 +12,7 @@ use shoal_bus::composite::{Composite, Part};
 use shoal_bus::local::Local;
 use shoal_bus::lockstep::{Answers, Batch, Fleet, FleetError, Loss};
 use shoal_bus::message::{AuvId, Born, Sensed};
-use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
+use shoal_bus::shared_memory::SharedMemoryFleet;
 use shoal_bus::zenoh::ZenohFleet;
 
 /// What starts [`an_auv`] in a child.
@@ -142,7 +142,8 @@ fn three_transports_in_one_run_answer_as_one_program() {
     let expected = digest(&mut Local::new(Echo::new), COUNT, 40);
     let parts: Vec<usize> = (0..COUNT as usize).map(|auv| auv % 3).collect();
     let mut crew = Crew::new();
-    let mut memory = SharedMemoryFleet::create(&crew.run, &wake_groups(&seats(&carried(&parts, 0)))).unwrap();
+    let processes: Vec<Vec<AuvId>> = carried(&parts, 0).into_iter().map(|auv| vec![auv]).collect();
+    let mut memory = SharedMemoryFleet::create(&crew.run, &processes).unwrap();
     let endpoint = ZenohFleet::local_endpoint(&crew.run);
     let mut zenoh = ZenohFleet::create(&endpoint, crew.run.id(), &carried(&parts, 1)).unwrap();
     let bus_of = |auv: AuvId| [Some("iceoryx2"), Some("zenoh"), None][parts[auv.0 as usize]];
@@ -173,9 +174,4 @@ fn three_transports_in_one_run_answer_as_one_program() {
     fleet.end();
     drop(fleet);
     crew.disband();
-}
-
-/// A process for each.
-fn seats(auvs: &[AuvId]) -> Vec<Vec<AuvId>> {
-    auvs.iter().map(|auv| vec![*auv]).collect()
 }

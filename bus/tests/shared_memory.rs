@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crew::{Crew, Echo, digest, exchange, loss};
 use shoal_bus::local::Local;
-use shoal_bus::lockstep::{Fleet, FleetError};
+use shoal_bus::lockstep::{Batch, Fleet, FleetError};
 use shoal_bus::message::AuvId;
 
 /// What starts [`an_auv`] in a child.
@@ -86,12 +86,33 @@ fn an_idle_group_sleeps_and_is_still_in_step() {
     fleet.born(&crew::born(40)).unwrap();
     for window in 0..50 {
         let due = if window % 10 == 9 { 39 } else { 1 };
-        let batch =
-            shoal_bus::lockstep::Batch { auv: AuvId(due), items: vec![crew::sensed(AuvId(due), window)] };
+        let batch = Batch { auv: AuvId(due), items: vec![crew::sensed(AuvId(due), window)] };
         let answers = fleet.exchange(&[batch], &mut || {}).unwrap();
         assert_eq!((answers.acted.len(), answers.acted[0].auv), (1, AuvId(due)));
     }
     assert_eq!(fleet.exchange(&[], &mut || {}).unwrap(), shoal_bus::lockstep::Answers::default());
+    drop(fleet);
+    crew.disband();
+}
+
+#[test]
+fn messages_of_any_length_cross() {
+    let mut local = Local::new(Echo::new);
+    let mut crew = Crew::new();
+    let mut fleet = crew.shared_memory(3, AS_AUV, &[]);
+    for born in [local.born(&crew::born(3)), fleet.born(&crew::born(3))] {
+        assert_eq!(born.unwrap(), []);
+    }
+    // Around what the near part of a slot holds, what all of it holds, and far beyond.
+    for (tick, pings) in
+        [0, 7, 8, 15, 16, 17, 18, 100, 180, 190, 350, 370, 400, 20_000, 3].into_iter().enumerate()
+    {
+        let batch = |auv, pings| Batch { auv, items: vec![crew::sensed_with(auv, tick as u64, pings)] };
+        let batches = [batch(AuvId(0), pings), batch(AuvId(1), 1), batch(AuvId(2), pings / 2)];
+        let answers = fleet.exchange(&batches, &mut || {}).unwrap();
+        assert_eq!(answers.acted[0].items[0].pings.len() as u64, pings);
+        assert_eq!(answers, local.exchange(&batches, &mut || {}).unwrap());
+    }
     drop(fleet);
     crew.disband();
 }

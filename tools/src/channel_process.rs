@@ -11,7 +11,7 @@ use shoal_bus::hosts::HostsFleet;
 use shoal_bus::lockstep::{Fleet, FleetError};
 use shoal_bus::message::AuvId;
 use shoal_bus::run_dir::RunDir;
-use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
+use shoal_bus::shared_memory::SharedMemoryFleet;
 use shoal_bus::summary::{Memory, Summary};
 use shoal_bus::zenoh::ZenohFleet;
 use shoal_channel::channel::Channel;
@@ -101,9 +101,7 @@ fn fleet(
         [] => None,
         seats => {
             let processes = Seat::in_wake_order(seats, &channel.wake_order());
-            // Who shares a wake-up group is late together.
-            let groups = if order.free_run { processes } else { wake_groups(&processes) };
-            Some(SharedMemoryFleet::create(run, &groups).map_err(Failure::failed)?)
+            Some(SharedMemoryFleet::create(run, &processes).map_err(Failure::failed)?)
         }
     };
     let endpoint = order.endpoint.clone().unwrap_or_else(|| ZenohFleet::local_endpoint(run));

@@ -13,7 +13,7 @@ use shoal_bus::hosts::{
 };
 use shoal_bus::lockstep::{FleetError, Loss, PROCESS_ENDED};
 use shoal_bus::run_dir::RunDir;
-use shoal_bus::shared_memory::{SharedMemoryFleet, wake_groups};
+use shoal_bus::shared_memory::SharedMemoryFleet;
 
 use crate::cli::{Bus, HostArgs};
 use crate::exit::Exit;
@@ -172,8 +172,8 @@ impl Carried<'_> {
         let run = RunDir::create(&description).while_doing("make a folder for the run")?;
         self.janitor = Some(Janitor::start(&run)?);
         let run = &self.run.insert(Residue(run)).0;
-        let groups = wake_groups(&Seat::in_wake_order(&seats, &assignment.auvs));
-        let mut fleet = SharedMemoryFleet::create(run, &groups).map_err(Failure::failed)?;
+        let processes = Seat::in_wake_order(&seats, &assignment.auvs);
+        let mut fleet = SharedMemoryFleet::create(run, &processes).map_err(Failure::failed)?;
         self.swarm.start_in_memory(run, seats)?;
         fleet.attach_processes(&self.swarm.processes()).map_err(Failure::failed)?;
         let interrupt = fleet.interrupt_handle();

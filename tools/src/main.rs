@@ -18,6 +18,7 @@ mod host;
 mod hosts_fleet;
 mod janitor;
 mod launch;
+mod limits;
 mod localize;
 mod memory;
 mod observers;

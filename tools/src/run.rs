@@ -21,6 +21,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, While};
 use crate::free_run::FreePlan;
 use crate::launch::{Done, FromChannel, Order};
+use crate::limits;
 use crate::memory;
 use crate::observers::{Progress, Recorder, Tapped};
 use crate::processes::{ChannelProcess, Ending as ProcessEnding, FAREWELL, HASTY_FAREWELL, Swarm};
@@ -45,6 +46,9 @@ pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
     check_commands(&scenario, &order)?;
     if order.bus == Bus::Local {
         needs_no_processes(&scenario, "use `--bus iceoryx2` or `--bus zenoh`")?;
+    }
+    if order.bus != Bus::Local {
+        limits::check(Seat::of_run(&order, &scenario).len(), order.bus)?;
     }
     RunDir::sweep();
     let interrupted = interrupts().while_doing("watch for Ctrl-C")?;

@@ -5,19 +5,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use iceoryx2::prelude::{Node, ipc};
-use serde::Serialize;
-
-use super::arena::read_answer;
-use super::control::Control;
-use super::late::LateGroup;
-use super::members::{Group, InterruptHandle, Member, Shared};
-use super::{BUS, GROUP_MAX};
+use super::BUS;
+use super::arena::{Arena, GROUP_MAX, Place};
+use super::long::{self, Way};
+use super::members::{InterruptHandle, Member, Shared};
 use crate::codec;
-use crate::iceoryx::{self, Island};
 use crate::lockstep::{Answers, Batch, Fleet, FleetError, Loss, PROCESS_ENDED};
-use crate::message::{Acted, AuvId, Born, Sensed};
-use crate::os::{keep_descriptors_from_children, raise_descriptor_limit};
+use crate::message::{AuvId, Born, Sensed};
+use crate::os::raise_descriptor_limit;
 use crate::run_dir::RunDir;
 use crate::watch::Watch;
 use crate::wire::{NOT_A_MESSAGE, ToAuvRef, read_acted};
@@ -26,81 +21,67 @@ use crate::wire::{NOT_A_MESSAGE, ToAuvRef, read_acted};
 const STALL_LIMIT: Duration = Duration::from_secs(300);
 
 /// How long the channel sleeps before it looks by itself; it is woken for everything that it must know.
-pub(super) const LOOK_AGAIN: Duration = Duration::from_millis(20);
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
 /// The same in a window in which an AUV died, perhaps just when it was to wake the channel.
 const LOOK_AGAIN_AFTER_LOSS: Duration = Duration::from_millis(1);
-
-/// Splits the AUVs of processes into wake-up groups of at most [`GROUP_MAX`] (more in a process of more), in the order of the
-/// processes: sort them by the phase of their ticks first, so that few groups are due in a short window.
-pub fn wake_groups(processes: &[Vec<AuvId>]) -> Vec<Vec<AuvId>> {
-    let mut groups: Vec<Vec<AuvId>> = Vec::new();
-    for process in processes {
-        match groups.last_mut() {
-            Some(group) if group.len() + process.len() <= GROUP_MAX => group.extend(process),
-            _ => groups.push(process.clone()),
-        }
-    }
-    groups
-}
 
 /// The channel's end of the `iceoryx2` transport.
 pub struct SharedMemoryFleet {
     // The watching thread first: it refers to all the rest.
     watch: Watch,
-    pub(super) groups: Vec<Group>,
     pub(super) members: Vec<Member>,
+    /// Of each group those that are due in this window, as (member, index of its message).
+    due: Vec<Vec<(usize, usize)>>,
     pub(super) shared: Arc<Shared>,
-    window: u32,
+    run: RunDir,
+    /// The message at hand.
+    bytes: Vec<u8>,
     stall_limit: Duration,
     pub(super) waited: Duration,
-    /// Groups that are at work past a deadline.
-    pub(super) late: Vec<LateGroup>,
-    _node: Node<ipc::Service>,
+    /// Who is at work past a deadline, as (member, ticks).
+    pub(super) late: Vec<(usize, usize)>,
 }
 
 impl SharedMemoryFleet {
-    /// Makes the control block and the services of `run`, for the AUVs in `groups` (see [`wake_groups`]). Do this before
-    /// their processes start.
-    pub fn create(run: &RunDir, groups: &[Vec<AuvId>]) -> Result<Self, FleetError> {
-        Self::try_create(run, groups).map_err(|cause| FleetError::Setup { bus: BUS, cause })
+    /// Makes the arena of `run`, for these processes and the AUVs that each carries. Do this before they start. Processes that are
+    /// next to each other are woken together: sort them by the phase of their AUVs' ticks.
+    pub fn create(run: &RunDir, processes: &[Vec<AuvId>]) -> Result<Self, FleetError> {
+        Self::try_create(run, processes).map_err(|cause| FleetError::Setup { bus: BUS, cause })
     }
 
-    fn try_create(run: &RunDir, groups: &[Vec<AuvId>]) -> Result<Self, String> {
+    fn try_create(run: &RunDir, processes: &[Vec<AuvId>]) -> Result<Self, String> {
         raise_descriptor_limit().map_err(|error| format!("descriptor limit: {error}"))?;
-        let mut placed: Vec<(AuvId, usize)> = Vec::new();
-        for (group, auvs) in groups.iter().enumerate() {
-            placed.extend(auvs.iter().map(|auv| (*auv, group)));
+        let mut placed: Vec<(AuvId, Place)> = Vec::new();
+        for (index, auvs) in processes.iter().enumerate() {
+            let place = Place { group: index / GROUP_MAX, bit: 1 << (index % GROUP_MAX) };
+            placed.extend(auvs.iter().map(|auv| (*auv, place)));
         }
-        placed.sort_unstable();
+        placed.sort_unstable_by_key(|(auv, _)| *auv);
         if let Some(twice) = placed.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err(format!("AUV {} is in two wake-up groups", twice[0].0));
+            return Err(format!("AUV {} is in two processes", twice[0].0));
         }
-        let node = iceoryx::node(run, Island::Agents)?;
-        let made = groups.iter().enumerate().map(|(index, auvs)| Group::create(&node, index, auvs.len()));
-        let groups = made.collect::<Result<Vec<Group>, String>>()?;
-        let control =
-            Control::create(run, &placed, groups.len()).map_err(|error| format!("control block: {error}"))?;
+        let groups = processes.len().div_ceil(GROUP_MAX);
+        let arena = Arena::create(run, &placed, groups).map_err(|error| format!("arena: {error}"))?;
         let shared = Arc::new(Shared {
-            control,
+            arena,
             has_ended: placed.iter().map(|_| AtomicBool::new(false)).collect(),
             is_interrupted: AtomicBool::new(false),
         });
         let seen_by_watch = Arc::clone(&shared);
         let watch =
             Watch::new(move |auv| seen_by_watch.end(auv)).map_err(|error| format!("watch: {error}"))?;
-        keep_descriptors_from_children().map_err(|error| format!("descriptors: {error}"))?;
-        let member = |&(auv, group): &(AuvId, usize)| Member { auv, group, pid: None, is_alive: false };
+        let member = |&(auv, place)| Member { auv, place, sequence: 0, pid: None, is_alive: false };
         Ok(Self {
             watch,
-            groups,
             members: placed.iter().map(member).collect(),
+            due: vec![Vec::new(); groups],
             shared,
-            window: 0,
+            run: run.clone(),
+            bytes: Vec::new(),
             stall_limit: STALL_LIMIT,
             waited: Duration::ZERO,
             late: Vec::new(),
-            _node: node,
         })
     }
 
@@ -125,8 +106,12 @@ impl SharedMemoryFleet {
     }
 
     pub(super) fn index(&self, auv: AuvId) -> Result<usize, FleetError> {
+        // Where it is when all ids from 0 on are there.
+        if self.members.get(auv.0 as usize).is_some_and(|member| member.auv == auv) {
+            return Ok(auv.0 as usize);
+        }
         let found = self.members.binary_search_by_key(&auv, |member| member.auv);
-        found.map_err(|_| failed(format_args!("AUV {auv} is in no wake-up group")))
+        found.map_err(|_| failed(format_args!("AUV {auv} is in no process of this run")))
     }
 
     /// Takes in the ends that were noticed since the last window.
@@ -138,185 +123,134 @@ impl SharedMemoryFleet {
         }
     }
 
-    /// Drops from `waiting` those that are done, and those whose process has ended before they were: whether there was any.
-    pub(super) fn settle(
-        &mut self,
-        waiting: &mut Vec<usize>,
-        losses: &mut Vec<Loss>,
-        is_done: &impl Fn(&Self, usize) -> bool,
-    ) -> bool {
-        let before = losses.len();
-        waiting.retain(|&index| {
-            // In this order: what an ended process had done by its end is final.
-            let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
-            if is_done(self, index) {
-                return false;
-            }
-            if has_ended {
-                self.members[index].lose(PROCESS_ENDED, losses);
-            }
-            !has_ended
-        });
-        losses.len() > before
-    }
-
-    /// Settles until none is left, and sleeps in between.
+    /// Waits until each of these members is done, or has been lost because its process ended before it was.
     fn wait(
         &mut self,
-        mut waiting: Vec<usize>,
+        members: impl Iterator<Item = usize> + Clone,
         losses: &mut Vec<Loss>,
         is_done: impl Fn(&Self, usize) -> bool,
     ) -> Result<(), FleetError> {
-        let mut since = Instant::now();
+        let mut waiting = members.peekable();
+        let mut since = None;
         let mut look_again = LOOK_AGAIN;
         loop {
-            let bell = self.shared.control.channel_bell();
+            let bell = self.shared.arena.channel_bell();
             if self.shared.is_interrupted.load(Ordering::Acquire) {
                 return Err(FleetError::Interrupted);
             }
-            let before = waiting.len();
-            if self.settle(&mut waiting, losses, &is_done) {
-                look_again = LOOK_AGAIN_AFTER_LOSS;
+            while let Some(&index) = waiting.peek() {
+                // In this order: what an ended process had done by its end is final.
+                let has_ended = self.shared.has_ended[index].load(Ordering::Acquire);
+                if !is_done(self, index) {
+                    if !has_ended {
+                        break;
+                    }
+                    self.members[index].lose(PROCESS_ENDED, losses);
+                }
+                if has_ended {
+                    look_again = LOOK_AGAIN_AFTER_LOSS;
+                }
+                since = None;
+                waiting.next();
             }
-            if waiting.is_empty() {
+            if waiting.peek().is_none() {
                 return Ok(());
             }
-            if waiting.len() < before {
-                since = Instant::now();
-            } else if since.elapsed() > self.stall_limit {
-                let waiting = waiting.iter().map(|&index| self.members[index].auv).collect();
+            if since.get_or_insert_with(Instant::now).elapsed() > self.stall_limit {
+                let waiting = waiting.filter(|&index| !is_done(self, index));
+                let waiting = waiting.map(|index| self.members[index].auv).collect();
                 return Err(FleetError::Stalled { waiting, limit_s: self.stall_limit.as_secs() });
             }
             let limit = look_again.min(self.stall_limit);
-            self.shared.control.await_channel_bell(bell, limit).map_err(failed)?;
+            self.shared.arena.await_channel_bell(bell, limit).map_err(failed)?;
         }
     }
 
-    /// Sends `messages` (of live members, sorted by member) group by group, so that the first group is at work while the next
-    /// one's are encoded. Returns for each group the live members that have yet to deal with its sample.
-    pub(super) fn send<T: Serialize>(
-        &mut self,
-        messages: &[(usize, T)],
-    ) -> Result<Vec<Vec<usize>>, FleetError> {
-        self.window = self.window.wrapping_add(1);
-        let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
-        for (at, (member, _)) in messages.iter().enumerate() {
-            of_group[self.members[*member].group].push(at);
+    /// Sends one message to each of these members, group by group: the first group is at work while the next one's are written.
+    /// Leaves in `due` who has yet to deal with it.
+    pub(super) fn send(&mut self, messages: &[(usize, ToAuvRef<'_>)]) -> Result<(), FleetError> {
+        self.due.iter_mut().for_each(Vec::clear);
+        for (at, (index, _)) in messages.iter().enumerate() {
+            self.due[self.members[*index].place.group].push((*index, at));
         }
-        let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); self.groups.len()];
-        for (index, member) in self.members.iter().enumerate() {
-            if member.is_alive && !of_group[member.group].is_empty() {
-                waiting[member.group].push(index);
+        let arena = &self.shared.arena;
+        for (group, due) in self.due.iter().enumerate().filter(|(_, due)| !due.is_empty()) {
+            let window = arena.begin_window(group, due.len());
+            let mut bits = 0;
+            for &(index, at) in due {
+                let member = &mut self.members[index];
+                member.sequence = member.sequence.wrapping_add(1);
+                bits |= member.place.bit;
+                self.bytes.clear();
+                codec::encode_into(&messages[at].1, &mut self.bytes).map_err(failed)?;
+                let slot = arena.slot(index);
+                slot.window.store(window, Ordering::Relaxed);
+                long::send(slot.down, &self.run, Way::Down, member.auv, member.sequence, &self.bytes)
+                    .map_err(failed)?;
             }
-        }
-        for (index, due) in of_group.iter().enumerate().filter(|(_, due)| !due.is_empty()) {
-            let group = &mut self.groups[index];
-            for (member, message) in due.iter().map(|&at| &messages[at]) {
-                let message = codec::encode(message).map_err(failed)?;
-                group.arena.push(self.members[*member].auv, &message);
-            }
-            group.sequence = group.sequence.wrapping_add(1);
-            let sample = group.arena.finish(group.sequence, self.window);
-            let sample = sample.ok_or_else(|| failed("one window holds more than 4 GiB for one group"))?;
-            self.shared.control.begin_window(index, self.window, waiting[index].len());
-            iceoryx::send(&group.down, sample).map_err(failed)?;
-            self.shared.control.ring_group(index, group.sequence).map_err(failed)?;
-        }
-        Ok(waiting)
-    }
-
-    /// Waits until these members have dealt with their group's sample.
-    fn await_group(&mut self, waiting: Vec<usize>, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
-        let since = Instant::now();
-        let waited = self.wait(waiting, losses, Self::has_acknowledged);
-        self.waited += since.elapsed();
-        waited
-    }
-
-    /// Whether a member has dealt with its group's last sample.
-    pub(super) fn has_acknowledged(&self, index: usize) -> bool {
-        let acknowledged = self.shared.control.slot(index).acknowledged.load(Ordering::Acquire);
-        acknowledged == self.groups[self.members[index].group].sequence
-    }
-
-    /// Takes the answers of one group out of its service. `due` is (member, ticks), sorted.
-    pub(super) fn gather(
-        &mut self,
-        group: usize,
-        due: &[(usize, usize)],
-        answers: &mut Answers,
-    ) -> Result<(), FleetError> {
-        let Group { up, sequence: expected, .. } = &self.groups[group];
-        let mut gathered: Vec<Option<Result<Vec<Acted>, String>>> = due.iter().map(|_| None).collect();
-        let mut has_garbage = false;
-        while let Some(sample) = up.receive().map_err(failed)? {
-            let mut left = sample.payload();
-            while !left.is_empty() {
-                let Some((auv, sequence, message)) = read_answer(&mut left) else {
-                    has_garbage = true;
-                    break;
-                };
-                match due.binary_search_by_key(&auv, |&(member, _)| self.members[member].auv) {
-                    Ok(at) if self.members[due[at].0].is_alive => {
-                        gathered[at] = Some(match sequence == *expected {
-                            true => read_acted(message, due[at].1),
-                            false => Err(format!("it answered sample {sequence} instead of {expected}")),
-                        });
-                    }
-                    Ok(_) => {}
-                    Err(_) => has_garbage = true,
-                }
-            }
-        }
-        for (&(index, _), acted) in due.iter().zip(gathered) {
-            let member = &mut self.members[index];
-            if !member.is_alive {
-                continue;
-            }
-            let reason = match acted {
-                Some(Ok(items)) => {
-                    answers.acted.push(Batch { auv: member.auv, items });
-                    continue;
-                }
-                Some(Err(reason)) => reason,
-                None if has_garbage => NOT_A_MESSAGE.to_owned(),
-                None => return Err(failed(format_args!("the answer of AUV {} was lost", member.auv))),
-            };
-            self.shared.control.slot(index).dismissed.store(1, Ordering::Release);
-            member.lose(&reason, &mut answers.losses);
+            arena.ring_group(group, bits).map_err(failed)?;
         }
         Ok(())
     }
 
-    pub(super) fn clear(&mut self) {
-        self.groups.iter_mut().for_each(|group| group.arena.clear());
+    /// Waits until all members of a group that are due have dealt with their message.
+    fn await_group(&mut self, group: usize, losses: &mut Vec<Loss>) -> Result<(), FleetError> {
+        let since = Instant::now();
+        let due = std::mem::take(&mut self.due[group]);
+        let waited = self.wait(due.iter().map(|(index, _)| *index), losses, Self::has_answered);
+        self.due[group] = due;
+        self.waited += since.elapsed();
+        waited
+    }
+
+    /// Whether a member has dealt with the last message to it.
+    pub(super) fn has_answered(&self, index: usize) -> bool {
+        // Whatever is not the number before is an answer; whether it is the right one is seen when it is read.
+        let before = self.members[index].sequence.wrapping_sub(1);
+        self.shared.arena.slot(index).up.sequence.load(Ordering::Acquire) != before
+    }
+
+    /// Reads the answer of a member to a batch of so many ticks.
+    pub(super) fn read(&mut self, index: usize, ticks: usize, answers: &mut Answers) {
+        let member = &mut self.members[index];
+        if !member.is_alive {
+            return;
+        }
+        let slot = self.shared.arena.slot(index);
+        let found = slot.up.sequence.load(Ordering::Acquire);
+        let acted = if found == member.sequence {
+            long::receive(slot.up, &self.run, Way::Up, member.auv, &mut self.bytes)
+                .ok_or_else(|| NOT_A_MESSAGE.to_owned())
+                .and_then(|()| read_acted(&self.bytes, ticks))
+        } else {
+            Err(format!("answered message {found} instead of {}", member.sequence))
+        };
+        match acted {
+            Ok(items) => answers.acted.push(Batch { auv: member.auv, items }),
+            Err(reason) => {
+                slot.dismissed.store(1, Ordering::Release);
+                member.lose(&reason, &mut answers.losses);
+            }
+        }
     }
 }
 
 impl Fleet for SharedMemoryFleet {
     fn born(&mut self, born: &[Born]) -> Result<Vec<Loss>, FleetError> {
         let mut losses = Vec::new();
-        self.clear();
         let newborn = born.iter().map(|born| self.index(born.auv)).collect::<Result<Vec<usize>, _>>()?;
         for &index in &newborn {
             self.members[index].is_alive = true;
         }
-        self.wait(newborn.clone(), &mut losses, |fleet, index| {
-            let pid = fleet.shared.control.slot(index).pid.load(Ordering::Acquire);
+        self.wait(newborn.iter().copied(), &mut losses, |fleet, index| {
+            let pid = fleet.shared.arena.slot(index).pid.load(Ordering::Acquire);
             fleet.members[index].pid.map_or(pid != 0, |attached| attached == pid)
         })?;
-        for group in &self.groups {
-            // What those who were here before them left behind.
-            while group.up.receive().map_err(failed)?.is_some() {}
-        }
-        let messages: Vec<(usize, ToAuvRef)> = newborn
-            .iter()
-            .zip(born)
-            .filter(|(index, _)| self.members[**index].is_alive)
-            .map(|(&index, born)| (index, ToAuvRef::Born(born)))
-            .collect();
-        for waiting in self.send(&messages)? {
-            self.await_group(waiting, &mut losses)?;
+        let alive = newborn.iter().zip(born).filter(|(index, _)| self.members[**index].is_alive);
+        let messages: Vec<_> = alive.map(|(&index, born)| (index, ToAuvRef::Born(born))).collect();
+        self.send(&messages)?;
+        for group in 0..self.due.len() {
+            self.await_group(group, &mut losses)?;
         }
         losses.sort_by_key(|loss| loss.auv);
         Ok(losses)
@@ -327,25 +261,25 @@ impl Fleet for SharedMemoryFleet {
         sensed: &[Batch<Sensed>],
         meanwhile: &mut dyn FnMut(),
     ) -> Result<Answers, FleetError> {
-        let mut answers = Answers::default();
-        self.clear();
+        let mut answers = Answers { acted: Vec::with_capacity(sensed.len()), losses: Vec::new() };
         self.bury(&mut answers.losses);
-        let mut due: Vec<Vec<(usize, usize)>> = vec![Vec::new(); self.groups.len()];
         let mut messages = Vec::with_capacity(sensed.len());
         for batch in sensed {
             let index = self.index(batch.auv)?;
             if self.members[index].is_alive {
                 messages.push((index, ToAuvRef::Sensed(&batch.items)));
-                due[self.members[index].group].push((index, batch.items.len()));
             }
         }
-        let waiting = self.send(&messages)?;
+        self.send(&messages)?;
         meanwhile();
         self.waited = Duration::ZERO;
         // In the order of sending: while one group's answers are read, the next groups are at work.
-        for (group, (waiting, due)) in waiting.into_iter().zip(due).enumerate() {
-            self.await_group(waiting, &mut answers.losses)?;
-            self.gather(group, &due, &mut answers)?;
+        for group in 0..self.due.len() {
+            self.await_group(group, &mut answers.losses)?;
+            for at in 0..self.due[group].len() {
+                let (index, message) = self.due[group][at];
+                self.read(index, messages[message].1.ticks(), &mut answers);
+            }
         }
         answers.sort();
         Ok(answers)
@@ -365,10 +299,10 @@ impl Fleet for SharedMemoryFleet {
     }
 
     fn end(&mut self) {
-        self.shared.control.ended().store(1, Ordering::Release);
-        for (index, group) in self.groups.iter().enumerate() {
-            // The bell must change, or one who is about to sleep on it would not notice. Sleepers also look by themselves.
-            let _woken = self.shared.control.ring_group(index, group.sequence.wrapping_add(1));
+        self.shared.arena.ended().store(1, Ordering::Release);
+        for group in 0..self.due.len() {
+            // Sleepers also look by themselves.
+            let _woken = self.shared.arena.ring_group(group, u32::MAX);
         }
     }
 }
@@ -386,26 +320,28 @@ pub(super) fn failed(cause: impl Display) -> FleetError {
 #[cfg(test)]
 mod tests {
     use super::super::SharedMemoryLink;
-    use super::super::arena::write_answer;
     use super::*;
-    use crate::lockstep::{FromAuv, Link};
+    use crate::codec::MESSAGE_LIMIT_BYTES;
+    use crate::lockstep::{FromAuv, Link, ToProcess};
 
-    /// What a window brings whose only AUV sends these samples.
-    fn window(samples: Vec<Vec<u8>>) -> Result<Answers, FleetError> {
+    /// What a window brings whose only AUV answers with this, by its own account `length` bytes of a message so many numbers ahead.
+    fn window(message: &[u8], length: usize, sequence_ahead: u32) -> Answers {
         let run = RunDir::create(&serde_json::Value::Null).unwrap();
         let mut fleet = SharedMemoryFleet::create(&run, &[vec![AuvId(4)]]).unwrap();
-        let joins = run.clone();
+        let (joins, message) = (run.clone(), message.to_vec());
         let auv = std::thread::spawn(move || {
             let mut link = SharedMemoryLink::join(&joins, &[AuvId(4)]).unwrap();
             link.receive().unwrap();
-            link.answer_with(&samples);
-            link.receive().is_ok_and(|message| message == crate::lockstep::ToProcess::End)
+            link.answer_with(&message, length as u32, sequence_ahead);
+            link.receive().is_ok_and(|message| message == ToProcess::End)
         });
-        fleet.wait(vec![0], &mut Vec::new(), |fleet, index| {
-            fleet.shared.control.slot(index).pid.load(Ordering::Acquire) != 0
-        })?;
+        fleet
+            .wait([0].into_iter(), &mut Vec::new(), |fleet, index| {
+                fleet.shared.arena.slot(index).pid.load(Ordering::Acquire) != 0
+            })
+            .unwrap();
         fleet.members[0].is_alive = true;
-        let answers = fleet.exchange(&[Batch { auv: AuvId(4), items: Vec::new() }], &mut || {});
+        let answers = fleet.exchange(&[Batch { auv: AuvId(4), items: Vec::new() }], &mut || {}).unwrap();
         drop(fleet);
         auv.join().unwrap();
         run.remove().unwrap();
@@ -413,48 +349,28 @@ mod tests {
     }
 
     #[test]
-    fn strange_samples_lose_their_sender_and_missing_ones_are_noticed() {
+    fn strange_answers_lose_their_sender() {
         let fine = codec::encode(&FromAuv::Acted(Vec::new())).unwrap();
-        let answer = |auv, sequence, message: &[u8]| {
-            let mut sample = Vec::new();
-            write_answer(&mut sample, AuvId(auv), sequence, message);
-            vec![sample]
-        };
         let acted = vec![Batch { auv: AuvId(4), items: Vec::new() }];
-        assert_eq!(window(answer(4, 1, &fine)).unwrap(), Answers { acted, losses: Vec::new() });
-        let losses = vec![Loss { auv: AuvId(4), reason: NOT_A_MESSAGE.into() }];
-        for strange in [answer(4, 1, b"garbage"), answer(4, 1, b""), answer(9, 1, &fine), vec![vec![0; 3]]] {
-            assert_eq!(window(strange).unwrap(), Answers { acted: Vec::new(), losses: losses.clone() });
+        assert_eq!(window(&fine, fine.len(), 0), Answers { acted, losses: Vec::new() });
+        let lost = |answers: Answers| {
+            assert!(answers.acted.is_empty());
+            let [Loss { auv: AuvId(4), reason }] = &answers.losses[..] else { panic!("{answers:?}") };
+            reason.clone()
+        };
+        for length in [0, 1, 7, fine.len() - 1, fine.len() + 1, 9_000, MESSAGE_LIMIT_BYTES, u32::MAX as usize]
+        {
+            assert_eq!(lost(window(&fine, length, 0)), NOT_A_MESSAGE, "{length}");
         }
-        assert!(
-            window(Vec::new()).is_err_and(|error| error.to_string().contains("the answer of AUV 4 was lost"))
-        );
-        let losses = window(answer(4, 7, &fine)).unwrap().losses;
-        assert!(losses[0].reason.contains("answered sample 7 instead of 1"));
+        assert_eq!(lost(window(b"garbage", 7, 0)), NOT_A_MESSAGE);
+        assert_eq!(lost(window(&fine, fine.len(), 6)), "answered message 7 instead of 1");
     }
 
     #[test]
-    fn an_auv_in_two_groups_is_refused() {
+    fn an_auv_in_two_processes_is_refused() {
         let run = RunDir::create(&serde_json::Value::Null).unwrap();
         let made = SharedMemoryFleet::create(&run, &[vec![AuvId(1), AuvId(2)], vec![AuvId(1)]]);
         run.remove().unwrap();
         assert!(made.is_err_and(|error| error.to_string().contains("AUV 1 is in two")));
-    }
-
-    #[test]
-    fn groups_are_small_and_keep_the_order() {
-        let auvs: Vec<AuvId> = (0..70).rev().map(AuvId).collect();
-        for size in [1, 3, 32] {
-            let processes: Vec<Vec<AuvId>> = auvs.chunks(size).map(<[AuvId]>::to_vec).collect();
-            let groups = wake_groups(&processes);
-            assert!(groups.iter().all(|group| group.len() <= GROUP_MAX));
-            assert_eq!(groups.concat(), auvs);
-            assert!(processes.iter().all(|process| {
-                groups
-                    .iter()
-                    .any(|group| group.contains(&process[0]) == group.contains(process.last().unwrap()))
-            }));
-        }
-        assert_eq!(wake_groups(std::slice::from_ref(&auvs)), [auvs.clone()]);
     }
 }

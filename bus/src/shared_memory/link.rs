@@ -4,209 +4,165 @@ use std::fmt::Display;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::arena::{Arena, write_answer};
-use super::control::Control;
-use super::{BUS, down_service, up_service};
+use super::BUS;
+use super::arena::{Arena, Place};
+use super::long::{self, Way};
 use crate::codec;
-use crate::iceoryx::{self, BytesPublisher, BytesSubscriber, Island, Length};
 use crate::lockstep::{Batch, FromAuv, Link, LinkError, ToAuv, ToProcess};
 use crate::message::{Acted, AuvId};
-use crate::os::{Process, raise_descriptor_limit, sleep_on};
+use crate::os::{Process, Slept};
 use crate::run_dir::RunDir;
 
-/// How long an AUV sleeps before it looks whether the channel is alive.
-const CHANNEL_CHECK: Duration = Duration::from_secs(1);
-
-/// The answers of a process to one window are no longer: thousands of ticks.
-const ANSWER_LIMIT_BYTES: usize = 4 << 20;
-
-/// The same for each further AUV of the process.
-const FURTHER_LIMIT_BYTES: usize = 64 << 10;
+/// How long a process sleeps before it looks whether the channel is alive.
+const CHANNEL_CHECK: Duration = Duration::from_secs(2);
 
 /// The end of the `iceoryx2` transport in a process of AUVs.
 pub struct SharedMemoryLink {
-    members: Vec<Member>,
-    group: usize,
-    // Ports before the control block and everything else: they are dropped in this order.
-    down: BytesSubscriber,
-    up: BytesPublisher,
-    control: Control,
+    run: RunDir,
+    arena: Arena,
+    place: Place,
     channel: Process,
-    /// Sequence number and window of the last sample.
-    sequence: u32,
-    window: u32,
-    /// Whether a sample with a message was received: only then is the sequence known for certain.
-    is_in_step: bool,
-    /// What the last sample held, last first.
-    inbox: Vec<ToProcess>,
-    /// How many of its batches have no answer yet, and the other answers.
-    unanswered: usize,
-    outbox: Vec<u8>,
+    members: Vec<Member>,
+    /// Who is looked at next, and the bell when the first was.
+    next: usize,
+    bell: u32,
+    /// The message at hand.
+    bytes: Vec<u8>,
 }
 
 struct Member {
     auv: AuvId,
     slot: usize,
+    /// Number and window of the last message.
+    sequence: u32,
+    window: u32,
     has_batch: bool,
 }
 
 impl SharedMemoryLink {
-    /// Joins the run of `run` for these AUVs, which are of one wake-up group, and reports in.
+    /// Joins the run of `run` for these AUVs, which are those of one process, and reports in.
     pub fn join(run: &RunDir, auvs: &[AuvId]) -> Result<Self, LinkError> {
         Self::try_join(run, auvs).map_err(|cause| LinkError::Setup { bus: BUS, cause })
     }
 
     fn try_join(run: &RunDir, auvs: &[AuvId]) -> Result<Self, String> {
-        raise_descriptor_limit().map_err(|error| format!("descriptor limit: {error}"))?;
-        let control = Control::open(run).map_err(|error| format!("control block: {error}"))?;
-        let found = auvs.iter().map(|auv| control.find(*auv)).collect::<Option<Vec<_>>>();
+        let arena = Arena::open(run).map_err(|error| format!("arena: {error}"))?;
+        let found = auvs.iter().map(|auv| arena.find(*auv)).collect::<Option<Vec<_>>>();
         let found = found.ok_or("the run has no such AUVs")?;
-        let &(_, group) = found.first().ok_or("a process needs an AUV")?;
-        if found.iter().any(|(_, other)| *other != group) {
-            return Err("its AUVs are not of one wake-up group".to_owned());
+        let &(_, place) = found.first().ok_or("a process needs an AUV")?;
+        if found.iter().any(|(_, other)| *other != place) {
+            return Err("its AUVs are not those of one process".to_owned());
         }
         let channel =
-            Process::open(control.channel_pid()).map_err(|error| format!("channel process: {error}"))?;
+            Process::open(arena.channel_pid()).map_err(|error| format!("channel process: {error}"))?;
         let channel = channel.ok_or("the channel's process has ended")?;
-        let node = iceoryx::node(run, Island::Agents)?;
-        let down = iceoryx::subscriber(&iceoryx::open(&node, &down_service(group))?)?;
-        let limit = ANSWER_LIMIT_BYTES + (auvs.len() - 1) * FURTHER_LIMIT_BYTES;
-        let up = iceoryx::publisher(&iceoryx::open(&node, &up_service(group))?, Length::Limit(limit))?;
-        let sequence = control.group_bell(group).load(Ordering::Acquire);
-        for &(slot, _) in &found {
-            control.slot(slot).dismissed.store(0, Ordering::Relaxed);
-            control.slot(slot).acknowledged.store(sequence, Ordering::Relaxed);
-            control.slot(slot).pid.store(std::process::id(), Ordering::Release);
+        let mut members = Vec::with_capacity(auvs.len());
+        for (&auv, (slot, _)) in auvs.iter().zip(found) {
+            let shared = arena.slot(slot);
+            let sequence = shared.down.sequence.load(Ordering::Acquire);
+            shared.dismissed.store(0, Ordering::Relaxed);
+            shared.up.sequence.store(sequence, Ordering::Relaxed);
+            // The channel sends nothing before it sees this.
+            shared.pid.store(std::process::id(), Ordering::Release);
+            members.push(Member { auv, slot, sequence, window: 0, has_batch: false });
         }
-        control.ring_channel().map_err(|error| format!("reporting in: {error}"))?;
-        let member = |(&auv, (slot, _))| Member { auv, slot, has_batch: false };
-        Ok(Self {
-            members: auvs.iter().zip(found).map(member).collect(),
-            group,
-            down,
-            up,
-            control,
-            channel,
-            sequence,
-            window: 0,
-            is_in_step: false,
-            inbox: Vec::new(),
-            unanswered: 0,
-            outbox: Vec::new(),
-        })
+        arena.ring_channel().map_err(|error| format!("reporting in: {error}"))?;
+        Ok(Self { run: run.clone(), arena, place, channel, members, next: 0, bell: 0, bytes: Vec::new() })
     }
 
-    /// Sleeps until the group's bell is another than that of the last sample. `false`: the run is over.
-    fn await_bell(&self) -> Result<bool, LinkError> {
-        loop {
-            let bell = self.control.group_bell(self.group);
-            let rung = bell.load(Ordering::Acquire) != self.sequence;
-            if self.control.ended().load(Ordering::Acquire) != 0 {
-                return Ok(false);
-            }
-            let is_dismissed =
-                |member: &&Member| self.control.slot(member.slot).dismissed.load(Ordering::Acquire) != 0;
-            if let Some(member) = self.members.iter().find(is_dismissed) {
-                return Err(failed(format_args!("the channel gave AUV {} up", member.auv)));
-            }
-            if rung {
-                return Ok(true);
-            }
-            sleep_on(bell, self.sequence, CHANNEL_CHECK).map_err(failed)?;
-            if bell.load(Ordering::Acquire) == self.sequence && self.channel.has_ended().map_err(failed)? {
-                return Err(failed("the channel's process has ended"));
-            }
+    /// Takes what is new in the slot of one of the AUVs.
+    fn take(&mut self, index: usize) -> Result<Option<ToProcess>, LinkError> {
+        let Some(member) = self.members.get_mut(index) else { return Ok(None) };
+        let slot = self.arena.slot(member.slot);
+        if slot.dismissed.load(Ordering::Relaxed) != 0 {
+            return Err(failed(format_args!("the channel gave AUV {} up", member.auv)));
         }
+        let found = slot.down.sequence.load(Ordering::Acquire);
+        if found == member.sequence {
+            return Ok(None);
+        }
+        if found != member.sequence.wrapping_add(1) {
+            let Member { auv, sequence: last, .. } = member;
+            return Err(failed(format_args!("message {found} to AUV {auv} came after message {last}")));
+        }
+        (member.sequence, member.window) = (found, slot.window.load(Ordering::Relaxed));
+        let received = long::receive(slot.down, &self.run, Way::Down, member.auv, &mut self.bytes);
+        received.ok_or_else(|| failed(format_args!("message {found} to AUV {} is damaged", member.auv)))?;
+        Ok(Some(match codec::decode(&self.bytes)? {
+            ToAuv::Born(born) => {
+                self.bytes.clear();
+                self.send(index)?;
+                ToProcess::Born(born)
+            }
+            ToAuv::Sensed(items) => {
+                member.has_batch = true;
+                ToProcess::Sensed(Batch { auv: member.auv, items })
+            }
+            ToAuv::End => ToProcess::End,
+        }))
     }
 
-    /// Takes the sample that the bell announced, and acknowledges it unless it waits for answers.
-    fn take(&mut self) -> Result<(), LinkError> {
-        let Some(sample) = self.down.receive().map_err(failed)? else {
-            if self.is_in_step {
-                return Err(failed(format_args!("sample {} is missing", self.sequence.wrapping_add(1))));
-            }
-            // Published before this process had joined.
-            self.sequence = self.control.group_bell(self.group).load(Ordering::Acquire);
-            return Ok(());
-        };
-        for member in self.members.iter_mut().rev() {
-            let auv = member.auv;
-            let arena = Arena::read(sample.payload(), auv).ok_or_else(|| failed("a sample is damaged"))?;
-            if self.is_in_step && arena.sequence != self.sequence.wrapping_add(1) {
-                let (found, last) = (arena.sequence, self.sequence);
-                return Err(failed(format_args!("sample {found} came after sample {last}")));
-            }
-            let Some(message) = arena.message else { continue };
-            self.inbox.push(match codec::decode(message)? {
-                ToAuv::Born(born) => ToProcess::Born(born),
-                ToAuv::Sensed(items) => {
-                    member.has_batch = true;
-                    self.unanswered += 1;
-                    ToProcess::Sensed(Batch { auv, items })
-                }
-                ToAuv::End => ToProcess::End,
-            });
-        }
-        let arena = Arena::read(sample.payload(), AuvId(0)).ok_or_else(|| failed("a sample is damaged"))?;
-        (self.sequence, self.window) = (arena.sequence, arena.window);
-        drop(sample);
-        self.is_in_step |= !self.inbox.is_empty();
-        if self.is_in_step && self.unanswered == 0 {
-            self.acknowledge()?;
-        }
-        Ok(())
-    }
-
-    fn acknowledge(&self) -> Result<(), LinkError> {
-        for member in &self.members {
-            self.control.acknowledge(member.slot, self.group, self.sequence, self.window).map_err(failed)?;
-        }
-        Ok(())
+    /// Sends the message at hand for one of the AUVs, which deals with the last one that it received.
+    fn send(&self, index: usize) -> Result<(), LinkError> {
+        let Some(member) = self.members.get(index) else { return Ok(()) };
+        let up = self.arena.slot(member.slot).up;
+        long::send(up, &self.run, Way::Up, member.auv, member.sequence, &self.bytes).map_err(failed)?;
+        self.arena.answered(self.place.group, member.window).map_err(failed)
     }
 }
 
 impl Link for SharedMemoryLink {
     fn receive(&mut self) -> Result<ToProcess, LinkError> {
         loop {
-            if let Some(message) = self.inbox.pop() {
-                return Ok(message);
+            if self.next == 0 {
+                self.bell = self.arena.group_bell(self.place.group);
             }
-            if !self.await_bell()? {
+            while self.next < self.members.len() {
+                self.next += 1;
+                if let Some(message) = self.take(self.next - 1)? {
+                    return Ok(message);
+                }
+            }
+            self.next = 0;
+            if self.arena.ended().load(Ordering::Acquire) != 0 {
                 return Ok(ToProcess::End);
             }
-            self.take()?;
+            let slept = self.arena.sleep(self.place, self.bell, CHANNEL_CHECK).map_err(failed)?;
+            if slept == Slept::Out && self.channel.has_ended().map_err(failed)? {
+                return Err(failed("the channel's process has ended"));
+            }
         }
     }
 
     fn answer(&mut self, acted: Batch<Acted>) -> Result<(), LinkError> {
-        let member = self.members.iter_mut().find(|member| member.auv == acted.auv);
-        if !member.is_some_and(|member| std::mem::take(&mut member.has_batch)) {
+        let of_auv = |member: &Member| member.auv == acted.auv;
+        // Usually the one who received last.
+        let last = self.next.wrapping_sub(1);
+        let index = match self.members.get(last) {
+            Some(member) if of_auv(member) => Some(last),
+            _ => self.members.iter().position(of_auv),
+        };
+        let awaiting = index.and_then(|index| Some((index, self.members.get_mut(index)?)));
+        let Some((index, member)) = awaiting.filter(|(_, member)| member.has_batch) else {
             return Err(failed("an answer without a batch"));
-        }
-        let message = codec::encode(&FromAuv::Acted(acted.items))?;
-        write_answer(&mut self.outbox, acted.auv, self.sequence, &message);
-        self.unanswered -= 1;
-        if self.unanswered > 0 {
-            return Ok(());
-        }
-        let reached = iceoryx::send(&self.up, &self.outbox).map_err(failed)?;
-        if reached != 1 {
-            return Err(failed(format_args!("an answer reached {reached} channels")));
-        }
-        self.outbox.clear();
-        self.acknowledge()
+        };
+        member.has_batch = false;
+        self.bytes.clear();
+        codec::encode_into(&FromAuv::Acted(acted.items), &mut self.bytes)?;
+        self.send(index)
     }
 }
 
 #[cfg(test)]
 impl SharedMemoryLink {
-    /// Acknowledges the batch after sending these samples instead of an answer.
-    pub(super) fn answer_with(&mut self, samples: &[Vec<u8>]) {
-        for sample in samples {
-            iceoryx::send(&self.up, sample).unwrap();
-        }
-        self.unanswered = 0;
-        self.acknowledge().unwrap();
+    /// Answers the batch of the first AUV with this, whatever it is.
+    pub(super) fn answer_with(&mut self, message: &[u8], length: u32, sequence_ahead: u32) {
+        let slot = self.arena.slot(self.members[0].slot);
+        slot.up.write(message);
+        slot.up.length.store(length, Ordering::Relaxed);
+        let sequence = self.members[0].sequence.wrapping_add(sequence_ahead);
+        slot.up.sequence.store(sequence, Ordering::Release);
+        self.arena.answered(self.place.group, self.members[0].window).unwrap();
     }
 }
 

@@ -1,41 +1,25 @@
-//! What the channel keeps of each wake-up group and of each AUV.
+//! What the channel keeps of each AUV, and what other threads see of it.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use iceoryx2::prelude::{Node, ipc};
-
-use super::arena::ArenaWriter;
-use super::control::Control;
-use super::{down_service, up_service};
-use crate::iceoryx::{self, BytesPublisher, BytesSubscriber, Length, Limits};
+use super::arena::{Arena, Place};
 use crate::lockstep::Loss;
 use crate::message::AuvId;
 
-/// First guess for the length of one AUV's message down; memory grows by itself.
-const EXPECTED_MESSAGE_BYTES: usize = 512;
-
-/// Samples that a buffer holds: in step there is never more than one. Every connection pays for this.
-const BUFFER: usize = 1;
-
 /// What the watching thread and interrupt handles see.
 pub(super) struct Shared {
-    pub(super) control: Control,
+    pub(super) arena: Arena,
     /// By member.
     pub(super) has_ended: Vec<AtomicBool>,
     pub(super) is_interrupted: AtomicBool,
 }
 
-pub(super) struct Group {
-    pub(super) down: BytesPublisher,
-    pub(super) up: BytesSubscriber,
-    pub(super) sequence: u32,
-    pub(super) arena: ArenaWriter,
-}
-
 pub(super) struct Member {
     pub(super) auv: AuvId,
-    pub(super) group: usize,
+    pub(super) place: Place,
+    /// Of the last message to it.
+    pub(super) sequence: u32,
     /// Of the process that was attached.
     pub(super) pid: Option<u32>,
     pub(super) is_alive: bool,
@@ -51,37 +35,19 @@ impl InterruptHandle {
     pub fn interrupt(&self) {
         self.0.is_interrupted.store(true, Ordering::Release);
         // The channel looks by itself soon if it cannot be woken.
-        let _woken = self.0.control.ring_channel();
+        let _woken = self.0.arena.ring_channel();
     }
 }
 
 impl Shared {
     /// Notes that the process of `auv` has ended.
     pub(super) fn end(&self, auv: AuvId) {
-        let has_ended = self.control.find(auv).and_then(|(index, _)| self.has_ended.get(index));
+        let has_ended = self.arena.find(auv).and_then(|(index, _)| self.has_ended.get(index));
         if let Some(has_ended) = has_ended {
             has_ended.store(true, Ordering::Release);
             // The channel looks by itself soon if it cannot be woken.
-            let _woken = self.control.ring_channel();
+            let _woken = self.arena.ring_channel();
         }
-    }
-}
-
-impl Group {
-    /// Makes the services of the group `index`.
-    pub(super) fn create(node: &Node<ipc::Service>, index: usize, members: usize) -> Result<Self, String> {
-        // Ports of the dead are never cleared away within a run, so those that are restarted need some of their own.
-        let auvs = members + members / 4 + 4;
-        let limits =
-            |publishers, subscribers| Limits { publishers, subscribers, buffer: BUFFER, overflow: false };
-        let down = iceoryx::create(node, &down_service(index), limits(1, auvs))?;
-        let up = iceoryx::create(node, &up_service(index), limits(auvs, 1))?;
-        Ok(Self {
-            down: iceoryx::publisher(&down, Length::Expected(members.max(1) * EXPECTED_MESSAGE_BYTES))?,
-            up: iceoryx::subscriber(&up)?,
-            sequence: 0,
-            arena: ArenaWriter::default(),
-        })
     }
 }
 

@@ -13,7 +13,7 @@ use shoal_bus::message::{
 };
 use shoal_bus::ping::Frame;
 use shoal_bus::run_dir::RunDir;
-use shoal_bus::shared_memory::{SharedMemoryFleet, SharedMemoryLink, wake_groups};
+use shoal_bus::shared_memory::{SharedMemoryFleet, SharedMemoryLink};
 use shoal_bus::time::LocalTime;
 use shoal_bus::zenoh::{ZenohFleet, ZenohLink};
 
@@ -62,7 +62,7 @@ pub fn be_an_auv_if_asked() -> bool {
 /// Runs three AUVs until it is killed.
 fn be_a_channel(bus: &str, run: &RunDir) -> ! {
     let mut fleet: Box<dyn Fleet> = match bus {
-        "iceoryx2" => Box::new(SharedMemoryFleet::create(run, &wake_groups(&seats(3, 1))).unwrap()),
+        "iceoryx2" => Box::new(SharedMemoryFleet::create(run, &seats(3, 1)).unwrap()),
         _ => Box::new(ZenohFleet::create(&ZenohFleet::local_endpoint(run), run.id(), &auvs(3)).unwrap()),
     };
     std::fs::write(run.path().join(CHANNEL), "ready").unwrap();
@@ -197,10 +197,15 @@ pub fn batch(auv: AuvId, window: u64) -> Option<Batch<Sensed>> {
 }
 
 pub fn sensed(auv: AuvId, tick: u64) -> Sensed {
+    sensed_with(auv, tick, (u64::from(auv.0) + tick) % 4)
+}
+
+/// A tick in which so many pings are heard.
+pub fn sensed_with(auv: AuvId, tick: u64, pings: u64) -> Sensed {
     let stamp = LocalTime::from_ns(tick as i64 * 50_000_000);
     let depth_m = Measured { value: f64::from(auv.0), error: 0.1 };
     let mut events = vec![Event { stamp, sense: Sense::Depth { depth_m } }];
-    for heard in 0..(u64::from(auv.0) + tick) % 4 {
+    for heard in 0..pings {
         let frame = Frame::new(&[(heard + tick) as u8; 32]).unwrap();
         events.push(Event { stamp, sense: Sense::Heard { frame } });
     }
@@ -362,7 +367,7 @@ impl Crew {
         arguments: &[&str],
         manners: &[(u32, &str)],
     ) -> SharedMemoryFleet {
-        let mut fleet = SharedMemoryFleet::create(&self.run, &wake_groups(&seats(count, self.each))).unwrap();
+        let mut fleet = SharedMemoryFleet::create(&self.run, &seats(count, self.each)).unwrap();
         let processes = self.start("iceoryx2", count, arguments, manners);
         fleet.attach_processes(&processes).unwrap();
         fleet
