@@ -44,7 +44,7 @@ fn every_tick_that_is_not_answered_in_time_counts_once() {
     let ticks_of_first = |sensed: &[Batch<Sensed>]| sensed[0].items.clone();
     let mut told = ticks_of_first(&channel.advance(SimTime::from_ns(9 * MS)).unwrap());
     // None has come to its deadline yet: the reaction time is longer than the window.
-    channel.accept_late(Answers::default(), channel.now());
+    channel.accept_late(Vec::new(), Answers::default(), channel.now());
     assert_eq!(channel.summary().free_run.unwrap().deadline_misses, 0);
 
     told.extend(ticks_of_first(&channel.advance(SimTime::from_ns(18 * MS)).unwrap()));
@@ -52,14 +52,15 @@ fn every_tick_that_is_not_answered_in_time_counts_once() {
     let now = channel.now();
     // The clock of the other one is another.
     let missed = |channel: &Channel| channel.summary().free_run.unwrap();
-    channel.accept_late(Answers::default(), now);
+    channel.accept_late(Vec::new(), Answers::default(), now);
     let of_first = missed(&channel).late.iter().find(|late| late.auv == 0).unwrap().misses;
     let past = told.iter().filter(|sensed| (sensed.stamp + wake.reaction_ns).ns() < now.ns() - MS);
     assert!((past.clone().count() as u64..=past.count() as u64 + 2).contains(&of_first), "{of_first}");
     // Looking again changes nothing, answering late does not either.
-    channel.accept_late(Answers::default(), now);
+    channel.accept_late(Vec::new(), Answers::default(), now);
     let items = told.iter().map(|sensed| answer(sensed, wake.reaction_ns)).collect();
     channel.accept_late(
+        Vec::new(),
         Answers { acted: vec![Batch { auv: channel.born()[0].auv, items }], losses: Vec::new() },
         now,
     );
@@ -67,7 +68,7 @@ fn every_tick_that_is_not_answered_in_time_counts_once() {
     assert_eq!(after.late.iter().find(|late| late.auv == 0).unwrap().misses, of_first);
     assert!(after.late.iter().any(|late| late.auv == second.0) && after.worst_s > 0.0, "{after:?}");
     // The wall clock decides, where it is ahead of the water.
-    channel.accept_late(Answers::default(), now + 100 * MS);
+    channel.accept_late(Vec::new(), Answers::default(), now + 100 * MS);
     let behind = missed(&channel);
     assert!(
         behind.deadline_misses > after.deadline_misses && behind.worst_s > after.worst_s + 0.09,
@@ -84,14 +85,14 @@ fn what_is_decided_too_late_takes_effect_now_and_is_told_now() {
     let mut told = Vec::new();
     for window in 1..=20 {
         told.extend(channel.advance(SimTime::from_ns(window * 9 * MS)).unwrap()[0].items.clone());
-        channel.accept_late(Answers::default(), channel.now());
+        channel.accept_late(Vec::new(), Answers::default(), channel.now());
         let _told = channel.chronicle().unwrap().len();
     }
     let before = channel.now();
     channel.advance(before + 9 * MS).unwrap();
     let items: Vec<Acted> = told.iter().map(|sensed| answer(sensed, reaction_ns)).collect();
     let by = channel.now();
-    channel.accept_late(Answers { acted: vec![Batch { auv, items }], losses: Vec::new() }, by);
+    channel.accept_late(Vec::new(), Answers { acted: vec![Batch { auv, items }], losses: Vec::new() }, by);
     let entries = channel.chronicle().unwrap();
     assert!(entries.iter().all(|entry| entry.at >= before));
     let acted = entries.iter().filter(|entry| matches!(entry.what, What::Acted(_))).count();
@@ -105,7 +106,7 @@ fn what_is_decided_too_late_takes_effect_now_and_is_told_now() {
     // The body turns from now on, not from what is past.
     let west = |channel: &mut Channel, to: SimTime| {
         channel.advance(to).unwrap();
-        channel.accept_late(Answers::default(), to);
+        channel.accept_late(Vec::new(), Answers::default(), to);
     };
     for window in 1..=300 {
         west(&mut channel, by + window * 9 * MS);
