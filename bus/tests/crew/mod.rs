@@ -328,10 +328,15 @@ impl Crew {
         self.children[(auv / self.each) as usize].id()
     }
 
-    /// Sends a signal to one's process.
+    /// Sends a signal to one's process; a stop has come to all of its threads then.
     pub fn signal(&self, auv: u32, signal: rustix::process::Signal) {
-        let pid = rustix::process::Pid::from_raw(self.pid(auv) as i32).unwrap();
-        rustix::process::kill_process(pid, signal).unwrap();
+        let pid = self.pid(auv);
+        rustix::process::kill_process(rustix::process::Pid::from_raw(pid as i32).unwrap(), signal).unwrap();
+        let since = Instant::now();
+        while signal == rustix::process::Signal::STOP && !is_stopped(pid) {
+            assert!(since.elapsed() < Duration::from_secs(60), "process {pid} does not stop");
+            std::thread::sleep(Duration::from_millis(1));
+        }
     }
 
     pub fn kill(&mut self, auv: u32) {
@@ -391,4 +396,13 @@ impl Drop for Crew {
         }
         let _removed = self.run.remove();
     }
+}
+
+/// Whether every thread of the process is stopped: each does so at its own next moment on a processor.
+fn is_stopped(pid: u32) -> bool {
+    let threads = std::fs::read_dir(format!("/proc/{pid}/task")).unwrap();
+    threads.flatten().all(|thread| {
+        let stat = std::fs::read_to_string(thread.path().join("stat")).unwrap_or_default();
+        stat.rsplit_once(") ").is_none_or(|(_, rest)| rest.starts_with('T'))
+    })
 }
