@@ -21,6 +21,8 @@ class Link:
         config.insert_json5("connect/endpoints", json.dumps([os.environ["SHOAL_ENDPOINT"]]))
         config.insert_json5("connect/timeout_ms", "60000")
         config.insert_json5("scouting/multicast/enabled", "false")
+        # It would leave a file behind that nobody needs.
+        config.insert_json5("transport/shared_memory/enabled", "false")
         self.session = zenoh.open(config)
         self.inbox = queue.SimpleQueue()
         self.down = self.session.declare_subscriber(
