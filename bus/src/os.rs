@@ -89,15 +89,15 @@ pub enum Slept {
     Out,
 }
 
-/// Sleeps while `word` is `value`, at most for `limit`, and is woken by [`wake_these`] if that names a bit of `bits`. May also return
-/// early: look again.
-pub fn sleep_as(word: &AtomicU32, value: u32, bits: u32, limit: Duration) -> io::Result<Slept> {
+/// Sleeps while `word` is `value`, at most for `limit` if there is one, and is woken by [`wake_these`] if that names a bit of `bits`. May
+/// also return early: look again.
+pub fn sleep_as(word: &AtomicU32, value: u32, bits: u32, limit: Option<Duration>) -> io::Result<Slept> {
     let bits = NonZeroU32::new(bits).ok_or(io::ErrorKind::InvalidInput)?;
     if word.load(Ordering::Acquire) != value {
         return Ok(Slept::Woken);
     }
-    let now = rustix::time::clock_gettime(rustix::time::ClockId::Monotonic);
-    let deadline = timespec(limit).checked_add(now);
+    let now = || rustix::time::clock_gettime(rustix::time::ClockId::Monotonic);
+    let deadline = limit.and_then(|limit| timespec(limit).checked_add(now()));
     match futex::wait_bitset(word, futex::Flags::empty(), value, deadline.as_ref(), bits) {
         Ok(()) | Err(rustix::io::Errno::AGAIN | rustix::io::Errno::INTR) => Ok(Slept::Woken),
         Err(rustix::io::Errno::TIMEDOUT) => Ok(Slept::Out),

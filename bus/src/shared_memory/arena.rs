@@ -43,6 +43,14 @@ const COUNT_BITS: u32 = 20;
 /// How many processes a wake-up group can have: each has a bit of its own, by which it alone can be woken.
 pub(super) const GROUP_MAX: usize = 32;
 
+/// How many processes of each group are guards: one may die with the channel.
+const GUARDS: u32 = 2;
+
+/// The channel has ended the run.
+pub(super) const ENDED: u32 = 1;
+/// The channel has ended without a word.
+pub(super) const ORPHANED: u32 = 2;
+
 /// The arena of a run.
 #[derive(Debug)]
 pub(super) struct Arena {
@@ -58,6 +66,14 @@ pub(super) struct Place {
     pub(super) group: usize,
     /// The process's own bit in it.
     pub(super) bit: u32,
+}
+
+impl Place {
+    /// Whether the process looks now and then if the channel is alive, for all of its group: each window of each process would
+    /// cost a fifth more with a timer for its sleep.
+    fn is_guard(self) -> bool {
+        self.bit.trailing_zeros() < GUARDS
+    }
 }
 
 /// One AUV's slot.
@@ -132,9 +148,15 @@ impl Arena {
         self.word(4).load(Ordering::Relaxed)
     }
 
-    /// Not zero when the run is over.
+    /// Zero until the run is over, then [`ENDED`] or [`ORPHANED`].
     pub(super) fn ended(&self) -> &AtomicU32 {
         self.word(5)
+    }
+
+    /// Tells a group that the channel's process has ended.
+    pub(super) fn orphan(&self, group: usize) -> io::Result<()> {
+        self.ended().store(ORPHANED, Ordering::Release);
+        self.ring_group(group, u32::MAX)
     }
 
     /// Index of the slot of `auv`, and where its process sleeps.
@@ -172,8 +194,9 @@ impl Arena {
         self.word(GROUPS + group * GROUP).load(Ordering::Acquire)
     }
 
-    /// Sleeps until the bell of its group is rung for this place after it was `seen`, at most for `limit`. May return early.
+    /// Sleeps until the bell of its group is rung for this place after it was `seen`; guards at most for `limit`. May return early.
     pub(super) fn sleep(&self, place: Place, seen: u32, limit: Duration) -> io::Result<Slept> {
+        let limit = Some(limit).filter(|_| place.is_guard());
         os::sleep_as(self.word(GROUPS + place.group * GROUP), seen, place.bit, limit)
     }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::BUS;
-use super::arena::{Arena, GROUP_MAX, Place};
+use super::arena::{Arena, ENDED, GROUP_MAX, Place};
 use super::long::{self, Way};
 use super::members::{InterruptHandle, Member, Shared};
 use crate::codec;
@@ -229,6 +229,8 @@ impl SharedMemoryFleet {
             Ok(items) => answers.acted.push(Batch { auv: member.auv, items }),
             Err(reason) => {
                 slot.dismissed.store(1, Ordering::Release);
+                // Who is deaf to this hears of the run's end.
+                let _woken = self.shared.arena.ring_group(member.place.group, member.place.bit);
                 member.lose(&reason, &mut answers.losses);
             }
         }
@@ -299,9 +301,9 @@ impl Fleet for SharedMemoryFleet {
     }
 
     fn end(&mut self) {
-        self.shared.arena.ended().store(1, Ordering::Release);
+        self.shared.arena.ended().store(ENDED, Ordering::Release);
         for group in 0..self.due.len() {
-            // Sleepers also look by themselves.
+            // A futex call on a word that is mapped does not fail; the launcher ends who sleeps nevertheless.
             let _woken = self.shared.arena.ring_group(group, u32::MAX);
         }
     }

@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use super::BUS;
-use super::arena::{Arena, Place};
+use super::arena::{Arena, ORPHANED, Place};
 use super::long::{self, Way};
 use crate::codec;
 use crate::lockstep::{Batch, FromAuv, Link, LinkError, ToAuv, ToProcess};
@@ -13,7 +13,7 @@ use crate::message::{Acted, AuvId};
 use crate::os::{Process, Slept};
 use crate::run_dir::RunDir;
 
-/// How long a process sleeps before it looks whether the channel is alive.
+/// How long a guard sleeps before it looks whether the channel is alive.
 const CHANNEL_CHECK: Duration = Duration::from_secs(2);
 
 /// The end of the `iceoryx2` transport in a process of AUVs.
@@ -124,12 +124,14 @@ impl Link for SharedMemoryLink {
                 }
             }
             self.next = 0;
-            if self.arena.ended().load(Ordering::Acquire) != 0 {
-                return Ok(ToProcess::End);
+            match self.arena.ended().load(Ordering::Acquire) {
+                0 => {}
+                ORPHANED => return Err(failed("the channel's process has ended")),
+                _ => return Ok(ToProcess::End),
             }
             let slept = self.arena.sleep(self.place, self.bell, CHANNEL_CHECK).map_err(failed)?;
             if slept == Slept::Out && self.channel.has_ended().map_err(failed)? {
-                return Err(failed("the channel's process has ended"));
+                self.arena.orphan(self.place.group).map_err(failed)?;
             }
         }
     }
