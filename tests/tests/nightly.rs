@@ -39,7 +39,7 @@ fn swarms(factor: f64) -> Vec<Swarm> {
 }
 
 #[test]
-#[ignore = "takes some twenty minutes on two cores"]
+#[ignore = "takes six and a half minutes on two cores"]
 fn a_hundred_million_checks_find_no_enclosure_without_the_truth() {
     let asked = std::env::var("SHOAL_NIGHTLY_CHECKS").ok().and_then(|checks| checks.parse().ok());
     let asked: f64 = asked.unwrap_or(CHECKS);

@@ -18,7 +18,7 @@ type Measure = (&'static str, &'static [Curve]);
 /// A line: colour, meaning, value at a moment.
 type Curve = (Colour, &'static str, fn(&FlockRow) -> Option<f64>);
 
-const MEASURES: [Measure; 4] = [
+const MEASURES: [Measure; 5] = [
     (
         "least separation (m)",
         &[(Colour::Blue, "least distance between two bodies since the second before", |row| {
@@ -35,12 +35,16 @@ const MEASURES: [Measure; 4] = [
             row.flock.algebraic_connectivity
         })],
     ),
+    // Apart: one is about one when the other is about hundreds.
     (
-        "number",
-        &[
-            (Colour::Purple, "connected components", |row| Some(f64::from(row.flock.components))),
-            (Colour::Orange, "AUVs in the largest one", |row| Some(f64::from(row.flock.largest_component))),
-        ],
+        "connected components",
+        &[(Colour::Purple, "connected components", |row| Some(f64::from(row.flock.components)))],
+    ),
+    (
+        "AUVs in the largest component",
+        &[(Colour::Orange, "AUVs in the largest component", |row| {
+            Some(f64::from(row.flock.largest_component))
+        })],
     ),
 ];
 
@@ -161,7 +165,7 @@ mod tests {
         assert!((POINTS_MAX / 2..=POINTS_MAX).contains(&points(0, 0).len()));
         assert_eq!(points(0, 0).iter().map(|[_, y]| *y).fold(99.0, f64::min), 1.5);
         assert!(points(2, 0).iter().all(|[x, y]| x == y));
-        assert!(points(3, 0).iter().all(|[_, y]| *y == 2.0) && points(3, 1).iter().all(|[_, y]| *y == 7.0));
+        assert!(points(3, 0).iter().all(|[_, y]| *y == 2.0) && points(4, 0).iter().all(|[_, y]| *y == 7.0));
         assert_eq!(figure.panels[0].x.last, 9_999.0);
     }
 
