@@ -175,7 +175,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "ENDPOINT", value_parser = parse_endpoint)]
     pub endpoint: Option<String>,
     /// Have hosts carry the AUVs, and listen for them here, such as `tcp/192.168.0.7:7447`: see `shoal host`
-    #[arg(long, value_name = "ENDPOINT", value_parser = parse_network_endpoint, requires = "hosts", conflicts_with_all = ["bus", "endpoint"])]
+    #[arg(long, value_name = "ENDPOINT", value_parser = parse_network_endpoint, requires = "hosts", conflicts_with_all = ["bus", "endpoint", "free_run"])]
     pub listen: Option<String>,
     /// How many hosts the run begins with
     #[arg(long, value_name = "M", requires = "listen")]
