@@ -71,6 +71,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
+        Command::Bench { command: BenchCommand::Tap(args) } => bench::tap(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
         Command::Janitor { run } => {

@@ -41,7 +41,9 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
     let choice = Choice::new(&args.choice, topic)?;
     let mut source = Source::open(&args.origin, &[topic])?;
     let mut left = args.choice.limit();
-    let mut period = Period::new(measure, None);
+    let mut period = Period::new(measure);
+    period.from =
+        args.origin.from.filter(|_| !is_live).map(|from| SimTime::from_ns((from * 1e9).round() as i64));
     loop {
         match source.next()? {
             Heard::Window(window) => period.take(&window, topic, &choice),
@@ -56,7 +58,7 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
             if left == 0 {
                 return Ok(warn(&source));
             }
-            period = Period::new(measure, period.to);
+            period = period.next();
         }
     }
     // What is left of a live run is less than a second, and of a record all of it.
@@ -70,6 +72,8 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
 struct Period {
     measure: Measure,
     began: Instant,
+    /// When the last window came.
+    arrived: Option<Instant>,
     from: Option<SimTime>,
     to: Option<SimTime>,
     latest: Option<SimTime>,
@@ -83,24 +87,36 @@ struct Period {
 }
 
 impl Period {
-    fn new(measure: Measure, from: Option<SimTime>) -> Self {
+    fn new(measure: Measure) -> Self {
         let [messages, intervals, transport, telling] = [Spread::default(); 4];
-        let began = Instant::now();
-        Self { measure, began, from, to: from, latest: None, messages, intervals, transport, telling }
+        let (began, arrived, from, to, latest) = (Instant::now(), None, None, None, None);
+        Self { measure, began, arrived, from, to, latest, messages, intervals, transport, telling }
+    }
+
+    /// The one that follows at once.
+    fn next(&self) -> Self {
+        let began = self.arrived.unwrap_or(self.began);
+        Self { began, from: self.to, to: self.to, latest: self.latest, ..Self::new(self.measure) }
     }
 
     fn is_over(&self) -> bool {
-        self.began.elapsed() >= PERIOD
+        self.to > self.from && self.began.elapsed() >= PERIOD
     }
 
     fn take(&mut self, window: &Window, topic: Topic, choice: &Choice) {
+        let now = Instant::now();
+        self.arrived = Some(now);
+        if window.published.is_some() && self.from.is_none() {
+            // A live run is measured from the end of the first window on.
+            (self.began, self.from, self.to) = (now, Some(window.to), Some(window.to));
+            return;
+        }
         let transport = window.published.and_then(|at| SystemTime::now().duration_since(at).ok());
         for row in window.rows.iter().filter(|row| row.topic() == topic) {
             if choice.takes(row).is_none() {
                 continue;
             }
             let at = row.at();
-            self.from.get_or_insert(at);
             if let Some(before) = self.latest.replace(at) {
                 self.intervals.add((at - before) as f64 / 1e9);
             }
@@ -112,7 +128,8 @@ impl Period {
                 self.telling.add((window.to - at) as f64 / 1e9);
             }
         }
-        self.from.get_or_insert(window.to);
+        // A record is measured from its beginning, or from where it was asked to.
+        self.from.get_or_insert(SimTime::ZERO);
         self.to = Some(window.to);
     }
 
@@ -120,7 +137,10 @@ impl Period {
         let to_s = self.to.map_or(0.0, SimTime::as_s);
         let sim_s = to_s - self.from.map_or(0.0, SimTime::as_s);
         let per_sim_s = |amount: f64| (sim_s > 0.0).then(|| amount / sim_s);
-        let per_s = |amount: f64| is_live.then(|| amount / self.began.elapsed().as_secs_f64());
+        let per_s = |amount: f64| {
+            let wall_s = self.arrived.map_or(0.0, |arrived| (arrived - self.began).as_secs_f64());
+            (is_live && wall_s > 0.0).then(|| amount / wall_s)
+        };
         let messages = self.messages.count;
         if args.form.json {
             let (name, figures) = match self.measure {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
+use shoal_bus::os::give_way;
 use shoal_bus::record::{Row, Topic};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::summary::Summary;
@@ -66,7 +67,11 @@ impl Source {
         let ns = |seconds: f64| (seconds * 1e9).round() as i64;
         let from = match &args.read {
             Some(path) => From::File(FileSource::open(path, topics)?),
-            None => From::Live(Box::new(live::attach(args, topics)?)),
+            None => {
+                // The run has the first word where processors are scarce. A system that refuses is no reason not to look.
+                let _refused = give_way();
+                From::Live(Box::new(live::attach(args, topics)?))
+            }
         };
         Ok(Self {
             from,
