@@ -28,7 +28,7 @@ pub struct TapBenchArgs {
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     pub pairs: u32,
     /// What the tap does, as behind `shoal tap`
-    #[arg(long, value_name = "ARGUMENTS", default_value = "")]
+    #[arg(long, value_name = "ARGUMENTS", default_value = "", allow_hyphen_values = true)]
     pub tap: String,
     /// One JSON line
     #[arg(long)]
@@ -41,16 +41,25 @@ struct TapEnd {
     words: String,
 }
 
-/// Runs the scenario without and with a tap at full speed, in turns, and prints how the rates compare.
+/// What was measured without, or with, a tap.
+#[derive(Default)]
+struct Measured {
+    /// Simulated seconds per second of each run.
+    rates: Vec<f64>,
+    /// Processor time of the run's own processes for each AUV and simulated second.
+    cpu_us: Vec<f64>,
+}
+
+/// Runs the scenario without and with a tap at full speed, in turns, and prints how they compare.
 ///
 /// # Errors
 /// When a run fails, or a tap changes a digest.
 pub fn tap(args: &TapBenchArgs) -> Result<Exit, Failure> {
-    let (mut ratios, mut rates, mut digest) = (Vec::new(), Vec::new(), None);
+    let (mut without, mut with) = (Measured::default(), Measured::default());
+    let mut digest = None;
     let mut last = TapEnd { lines: 0, words: String::new() };
     for pair in 0..args.pairs {
         // Whoever comes second finds a warmer machine: they take turns in that as well.
-        let mut of = [None, None];
         for tapped in if pair % 2 == 0 { [false, true] } else { [true, false] } {
             let (summary, end) = one(args, tapped)?;
             let known = digest.get_or_insert_with(|| summary.digest.clone());
@@ -60,40 +69,53 @@ pub fn tap(args: &TapBenchArgs) -> Result<Exit, Failure> {
                     summary.digest
                 )));
             }
-            if let Some(slot) = of.get_mut(usize::from(tapped)) {
-                *slot = summary.real_time_factor;
-            }
+            let measured = if tapped { &mut with } else { &mut without };
+            measured.rates.extend(summary.real_time_factor);
+            let cpu = summary.timings.as_ref().and_then(|timings| timings.cpu);
+            measured.cpu_us.extend(cpu.map(|cpu| cpu.us_per_auv_s));
             last = end.unwrap_or(last);
         }
-        if let [Some(without), Some(with)] = of {
-            ratios.push(with / without);
-            rates.push(without);
-        }
     }
-    let (Some(ratio), Some(rate)) = (median(&mut ratios), median(&mut rates)) else {
-        return Err(Failure::failed("no run told its rate"));
+    let compared = compare(&mut without, &mut with);
+    let Some(Compared { rate, ratio, median_ratio, cpu_ratio }) = compared else {
+        return Err(Failure::failed("no run told its rate and processor time"));
     };
-    let least = ratios.first().copied().unwrap_or(ratio);
+    let (pairs, lines, said) = (args.pairs, last.lines, last.words.trim());
     let text = if args.json {
         let name = format!("tap/{}", args.scenario);
         let line = json!({ "format": "shoal.bench/1", "name": name, "value": rate * ratio, "unit": "x real time",
-            "beside": { "name": format!("{name}/without"), "ratio": ratio }, "least_ratio": least, "pairs": ratios.len(),
-            "digest": digest, "lines": last.lines, "said": last.words.trim() });
+            "beside": { "name": format!("{name}/without"), "ratio": ratio }, "median_ratio": median_ratio,
+            "cpu_ratio": cpu_ratio, "pairs": pairs, "digest": digest, "lines": lines, "said": said });
         format!("{line}\n")
     } else {
         format!(
-            "{rate:.2} x real time without a tap; with one {:.3} of that (median of {} pairs, least {least:.3})\n\
-            the digest is the same, {}\nthe last tap printed {} lines. {}\n",
-            ratio,
-            ratios.len(),
+            "{pairs} runs without and with a tap, in turns; the digest is always {}\n\
+            rate: {rate:.2} x real time without, {ratio:.3} of that with (fastest runs; medians {median_ratio:.3})\n\
+            processor time of the run: {cpu_ratio:.3} of that without (medians)\n\
+            the last tap printed {lines} lines. {said}\n",
             digest.unwrap_or_default(),
-            last.lines,
-            last.words.trim(),
         )
     };
     // Whoever closed our output does not want the figures.
     let _closed = std::io::stdout().lock().write_all(text.as_bytes());
     Ok(Exit::Good)
+}
+
+struct Compared {
+    /// The fastest without a tap.
+    rate: f64,
+    /// The fastest with a tap beside it: what else goes on on a machine only slows.
+    ratio: f64,
+    median_ratio: f64,
+    cpu_ratio: f64,
+}
+
+fn compare(without: &mut Measured, with: &mut Measured) -> Option<Compared> {
+    let median_ratio = median(&mut with.rates)? / median(&mut without.rates)?;
+    let cpu_ratio = median(&mut with.cpu_us)? / median(&mut without.cpu_us)?;
+    // Sorted by now.
+    let (rate, tapped) = (*without.rates.last()?, *with.rates.last()?);
+    Some(Compared { rate, ratio: tapped / rate, median_ratio, cpu_ratio })
 }
 
 fn median(values: &mut [f64]) -> Option<f64> {
@@ -105,7 +127,7 @@ fn one(args: &TapBenchArgs, tapped: bool) -> Result<(Summary, Option<TapEnd>), F
     let exe = std::env::current_exe().while_doing("find this program's own file")?;
     let duration = args.duration_s.to_string();
     let run = Command::new(&exe)
-        .args(["run", &args.scenario, "--json", "--quiet", "--duration-s", &duration])
+        .args(["run", &args.scenario, "--json", "--quiet", "--timings", "--duration-s", &duration])
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .spawn()

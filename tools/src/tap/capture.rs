@@ -60,6 +60,9 @@ pub fn capture(args: &TapArgs, topic: Option<Topic>, path: &Path) -> Result<Exit
         rows.retain(|row| !matches!(row, Row::Summary(_)));
         rows.truncate(usize::try_from(left).unwrap_or(usize::MAX));
         writer.append_rows(&rows).and_then(|()| writer.advance(window.to)).map_err(|error| failed(&error))?;
+        if !rows.is_empty() {
+            source.taken();
+        }
         written += rows.len() as u64;
         left = left.saturating_sub(rows.len() as u64);
         if left == 0 {

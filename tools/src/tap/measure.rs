@@ -46,7 +46,13 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
         args.origin.from.filter(|_| !is_live).map(|from| SimTime::from_ns((from * 1e9).round() as i64));
     loop {
         match source.next()? {
-            Heard::Window(window) => period.take(&window, topic, &choice),
+            Heard::Window(window) => {
+                let before = period.messages.count;
+                period.take(&window, topic, &choice);
+                if period.messages.count > before {
+                    source.taken();
+                }
+            }
             Heard::Nothing => {}
             Heard::End => break,
         }
@@ -160,11 +166,11 @@ impl Period {
                     ("delay", json!({ "arrival_s": self.transport.json(), "telling_s": self.telling.json() }))
                 }
             };
-            let mut line = figures;
-            line["format"] = format!("shoal.tap.{name}/1").into();
-            line["topic"] = topic.name().into();
-            line["t_s"] = to_s.into();
-            line["messages"] = messages.into();
+            let mut line = json!({ "format": format!("shoal.tap.{name}/1"), "topic": topic.name(), "t_s": to_s,
+                "messages": messages });
+            if let (Value::Object(line), Value::Object(figures)) = (&mut line, figures) {
+                line.extend(figures);
+            }
             return format!("{line}\n");
         }
         let figures = match self.measure {
