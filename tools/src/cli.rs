@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
 use crate::plot::PlotArgs;
+use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
 
@@ -70,6 +71,11 @@ pub enum Command {
         rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
     )]
     Plot(PlotArgs),
+    /// Write a page (HTML) that says what a run amounts to, or what two runs differ in
+    #[command(after_help = "The page is one file that needs no other and no network.\n\nExamples:\n  \
+        shoal run swarm-300 --record flock.mcap\n  shoal report flock.mcap -o flock.html\n  \
+        shoal report flock.mcap other.mcap -o both.html\n  shoal report flock.mcap --markdown -o flock.md")]
+    Report(ReportArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {

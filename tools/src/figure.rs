@@ -28,6 +28,20 @@ pub struct Figure {
     pub legend: Vec<Entry>,
 }
 
+impl Figure {
+    /// Two figures of the same kind, with axes that hold what is in both, so that a reader can compare them.
+    pub fn on_the_same_axes(mut first: Self, mut second: Self) -> [Self; 2] {
+        for (left, right) in first.panels.iter_mut().zip(&mut second.panels) {
+            if (&left.x.label, &left.y.label) == (&right.x.label, &right.y.label) {
+                let (x, y) = (left.x.hull(&right.x), left.y.hull(&right.y));
+                (left.x, left.y) = (x.clone(), y.clone());
+                (right.x, right.y) = (x, y);
+            }
+        }
+        [first, second]
+    }
+}
+
 /// A pair of axes with what is drawn in between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {

@@ -46,6 +46,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::figure::Figure;
 
+pub use fate::Fate;
 use groups::told;
 
 #[derive(Debug, Args)]
@@ -58,6 +59,13 @@ pub struct PlotArgs {
     /// File to write; standard output unless given
     #[arg(long, short, value_name = "FILE.svg")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub of: Of,
+}
+
+/// What of the run to draw.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct Of {
     /// For `tubes` and `widths`: of which AUV, counted from 0
     #[arg(long, value_name = "N")]
     pub auv: Option<u32>,
@@ -111,7 +119,7 @@ pub enum Kind {
 }
 
 /// A figure in the making.
-trait Plot {
+pub trait Plot {
     /// The topics whose rows it takes.
     fn topics(&self) -> &'static [Topic];
 
@@ -125,10 +133,10 @@ trait Plot {
 /// Draws a figure of a record. A record that was cut is drawn as far as it goes.
 pub fn plot(args: &PlotArgs) -> Result<Exit, Failure> {
     let flags: [(&str, bool, &[Kind], &str); 4] = [
-        ("--depth-m", args.depth_m.is_some(), &[Kind::Rays], "`rays`"),
-        ("--range-m", args.range_m.is_some(), &[Kind::Rays], "`rays`"),
-        ("--auv", args.auv.is_some(), &[Kind::Tubes, Kind::Widths], "`tubes` and `widths`"),
-        ("--at-s", args.at_s.is_some(), &[Kind::Map, Kind::Links], "`map` and `links`"),
+        ("--depth-m", args.of.depth_m.is_some(), &[Kind::Rays], "`rays`"),
+        ("--range-m", args.of.range_m.is_some(), &[Kind::Rays], "`rays`"),
+        ("--auv", args.of.auv.is_some(), &[Kind::Tubes, Kind::Widths], "`tubes` and `widths`"),
+        ("--at-s", args.of.at_s.is_some(), &[Kind::Map, Kind::Links], "`map` and `links`"),
     ];
     if let Some((flag, _, _, names)) =
         flags.iter().find(|(_, is_given, kinds, _)| *is_given && !kinds.contains(&args.kind))
@@ -138,7 +146,7 @@ pub fn plot(args: &PlotArgs) -> Result<Exit, Failure> {
     let path = args.record.display();
     let wrong = |error: &dyn std::fmt::Display| Failure::failed(format!("{path}: {error}"));
     let file = File::open(&args.record).map_err(|error| wrong(&error))?;
-    let (svg, ending) = draw(file, plot_of(args)).map_err(|error| wrong(&error))?;
+    let (svg, ending) = draw_one(file, plot_of(args.kind, &args.of)).map_err(|error| wrong(&error))?;
     match &args.out {
         Some(out) => write(out, &svg)?,
         // A reader that has enough closes the pipe.
@@ -153,42 +161,73 @@ pub fn plot(args: &PlotArgs) -> Result<Exit, Failure> {
     Ok(Exit::Good)
 }
 
-fn plot_of(args: &PlotArgs) -> Box<dyn Plot> {
-    match args.kind {
+/// The figure of a kind, yet to be fed.
+pub fn plot_of(kind: Kind, of: &Of) -> Box<dyn Plot> {
+    match kind {
         Kind::Losses => Box::<losses::Losses>::default(),
         Kind::Ranges => Box::<ranges::Ranges>::default(),
         Kind::Reach => Box::<reach::Reach>::default(),
-        Kind::Rays => Box::new(rays::Rays::new(args.depth_m, args.range_m)),
+        Kind::Rays => Box::new(rays::Rays::new(of.depth_m, of.range_m)),
         Kind::Sinr => Box::<sinr::Sinr>::default(),
         Kind::Estimators => Box::<estimators::Estimators>::default(),
         Kind::Flock => Box::<flock::Flock>::default(),
-        Kind::Tubes => Box::new(tubes::Tubes::new(args.auv.unwrap_or(0))),
-        Kind::Widths => Box::new(widths::Widths::new(args.auv)),
-        Kind::Map => Box::new(map::Map::new(args.at_s)),
-        Kind::Links => Box::new(links::Links::new(args.at_s)),
+        Kind::Tubes => Box::new(tubes::Tubes::new(of.auv.unwrap_or(0))),
+        Kind::Widths => Box::new(widths::Widths::new(of.auv)),
+        Kind::Map => Box::new(map::Map::new(of.at_s)),
+        Kind::Links => Box::new(links::Links::new(of.at_s)),
     }
 }
 
-/// The text of the figure, and how the record ends.
-fn draw(
+/// What a record tells once it is read: its header, a figure of each plot or why there is none, and how it ends.
+pub struct Drawn {
+    /// What stands at the beginning.
+    pub header: RecordHeader,
+    /// As many as there were plots, in their order.
+    pub figures: Vec<Result<Figure, String>>,
+    /// How the record ends.
+    pub ending: Ending,
+}
+
+/// Feeds all plots in one pass, and `also` with every row of theirs and of `topics`.
+pub fn draw(
     record: impl std::io::Read + std::io::Seek,
-    mut plot: Box<dyn Plot>,
-) -> Result<(String, Ending), String> {
+    mut plots: Vec<Box<dyn Plot>>,
+    topics: &[Topic],
+    also: &mut dyn FnMut(&Row),
+) -> Result<Drawn, String> {
     let mut header = None;
-    let topics = plot.topics();
+    let wanted =
+        |topic: &Topic| topics.contains(topic) || plots.iter().any(|plot| plot.topics().contains(topic));
+    let topics: Vec<Topic> = Topic::ALL.into_iter().filter(wanted).collect();
     let mut take = |row: Row| match row {
         Row::Header(found) => header = Some(found),
-        row => plot.take(&row),
+        row => {
+            also(&row);
+            plots.iter_mut().for_each(|plot| plot.take(&row));
+        }
     };
-    let ending = read_rows(record, topics, &mut take).map_err(|error| error.to_string())?;
+    let ending = read_rows(record, &topics, &mut take).map_err(|error| error.to_string())?;
     let header = header.ok_or("the record was cut before anything happened")?;
-    let mut figure = plot.figure(&header)?;
-    figure.subtitle = run_of(&header);
-    Ok((figure.to_svg(), ending))
+    let subtitle = run_of(&header);
+    let figure = |plot: Box<dyn Plot>| {
+        plot.figure(&header).map(|figure| Figure { subtitle: subtitle.clone(), ..figure })
+    };
+    let figures = plots.into_iter().map(figure).collect();
+    Ok(Drawn { header, figures, ending })
+}
+
+/// The text of one figure, and how the record ends.
+fn draw_one(
+    record: impl std::io::Read + std::io::Seek,
+    plot: Box<dyn Plot>,
+) -> Result<(String, Ending), String> {
+    let drawn = draw(record, vec![plot], &[], &mut |_| {})?;
+    let figure = drawn.figures.into_iter().next().unwrap_or_else(|| Err("nothing to draw".to_owned()))?;
+    Ok((figure.to_svg(), drawn.ending))
 }
 
 /// Which run it is, in a few words.
-fn run_of(header: &RecordHeader) -> String {
+pub fn run_of(header: &RecordHeader) -> String {
     let auvs = header.auvs.len();
     let plural = if auvs == 1 { "" } else { "s" };
     format!("{}, seed {}, {auvs} AUV{plural}", header.scenario_name, header.seed)

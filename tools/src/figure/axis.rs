@@ -49,6 +49,18 @@ impl Axis {
         Self { first: self.last, last: self.first, ..self }
     }
 
+    /// An axis that runs the same way and holds what both hold.
+    pub fn hull(&self, other: &Self) -> Self {
+        let is_reversed = self.first > self.last;
+        let ends = [self.first, self.last, other.first, other.last];
+        let (least, greatest) = (
+            ends.into_iter().fold(f64::INFINITY, f64::min),
+            ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        );
+        let axis = Self::new(self.label.clone(), least, greatest);
+        if is_reversed { axis.reversed() } else { axis }
+    }
+
     /// Both axes of a map in a panel of this width and height: the same scale along both, with everything between `least` and
     /// `greatest`.
     pub fn map(labels: [&str; 2], least: [f64; 2], greatest: [f64; 2], size_px: [f64; 2]) -> [Self; 2] {

@@ -6,7 +6,7 @@ impl Figure {
     /// The same figure with about `most` points a line and bound, and as many marks a layer.
     ///
     /// Of points side by side on a line the first, the last, the least and the greatest are kept, each where it was, so that no
-    /// peak goes missing at any zoom; of marks every n-th, which the legend then says.
+    /// peak goes missing at any zoom; of marks and segments every n-th, which the legend then says.
     #[must_use]
     pub fn with_at_most(mut self, most: usize) -> Self {
         let mut every = 1;
@@ -19,18 +19,24 @@ impl Figure {
                     *corners = bounds.iter().flat_map(|bound| extremes(bound, most)).collect();
                 }
                 Layer::Marks { points, .. } => {
-                    let step = points.len().div_ceil(most.max(1)).max(1);
-                    *points = points.iter().copied().step_by(step).collect();
-                    every = every.max(step);
+                    every = every.max(thin(points, most));
                 }
-                Layer::Bars { .. } | Layer::Boxes { .. } | Layer::Segments { .. } | Layer::Arcs { .. } => {}
+                Layer::Segments { ends, .. } => every = every.max(thin(ends, most)),
+                Layer::Bars { .. } | Layer::Boxes { .. } | Layer::Arcs { .. } => {}
             }
         }
         if every > 1 {
-            self.legend.push(Entry::remark(format!("1 in {every} marks shown here, or more")));
+            self.legend.push(Entry::remark(format!("up to {most} marks and links of a kind shown")));
         }
         self
     }
+}
+
+/// Keeps every n-th, and says n.
+fn thin<T: Copy>(all: &mut Vec<T>, most: usize) -> usize {
+    let every = all.len().div_ceil(most.max(1)).max(1);
+    *all = all.iter().copied().step_by(every).collect();
+    every
 }
 
 /// The first, last, least and greatest of points side by side, in their order, so that about `most` are left; all when there are no more.

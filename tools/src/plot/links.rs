@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use shoal_bus::message::AuvId;
 use shoal_bus::record::rows::PingRow;
-use shoal_bus::record::{RecordHeader, Row, Topic};
+use shoal_bus::record::{BATCH_NS, RecordHeader, Row, Topic};
 use shoal_bus::time::NS_PER_S;
 
 use super::groups::{groups, mark};
@@ -22,6 +22,8 @@ pub struct Links {
     places: BTreeMap<AuvId, [f64; 2]>,
     /// The receptions of the second before: when, emitter, receiver.
     recent: VecDeque<(i64, AuvId, AuvId)>,
+    /// Time of the last tick.
+    last_ns: i64,
     /// The pairs of the second that is under way.
     second: i64,
     pairs: BTreeSet<(AuvId, AuvId)>,
@@ -37,6 +39,7 @@ impl Links {
             until_ns: moment_ns(at_s),
             places: BTreeMap::new(),
             recent: VecDeque::new(),
+            last_ns: 0,
             second: 0,
             pairs: BTreeSet::new(),
             receptions: 0,
@@ -134,9 +137,12 @@ impl Plot for Links {
 
     fn take(&mut self, row: &Row) {
         match row {
-            Row::Truth(row) if row.t_ns.ns() <= self.until_ns => {
-                let [x, y, _] = row.position_m;
-                self.places.insert(row.auv, [x.0, y.0]);
+            Row::Truth(row) => {
+                self.last_ns = row.t_ns.ns();
+                if row.t_ns.ns() <= self.until_ns {
+                    let [x, y, _] = row.position_m;
+                    self.places.insert(row.auv, [x.0, y.0]);
+                }
             }
             Row::Ping(PingRow::Heard { t_ns, from, to, .. }) => self.heard(t_ns.ns(), *from, *to),
             _ => {}
@@ -148,7 +154,10 @@ impl Plot for Links {
             Some((last_ns, ..)) => *last_ns,
             None => return Err("nothing to show: nobody heard anything until then".to_owned()),
         };
-        self.end_second();
+        // A second that was cut short says nothing, unless there is no other.
+        if self.counts.is_empty() || self.last_ns >= (self.second + 1) * NS_PER_S - BATCH_NS {
+            self.end_second();
+        }
         let until_ns = if self.until_ns == i64::MAX { last_ns } else { self.until_ns };
         let from_ns = until_ns.saturating_sub(NS_PER_S);
         let recent = self.recent.iter().filter(|(at_ns, ..)| *at_ns > from_ns);

@@ -173,7 +173,7 @@ impl Plot for Map {
             seconds(now_ns - first_ns)
         )));
         Ok(Figure {
-            title: format!("Where the AUVs are and where they believe to be, at {} s", seconds(now_ns)),
+            title: format!("Where the AUVs are and where they believe to be, at {:.3} s", seconds(now_ns)),
             subtitle: String::new(),
             panels: vec![Panel { width_px: PLAN_PX[0], x, y, layers: plan_layers }, side],
             legend,

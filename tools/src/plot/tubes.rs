@@ -19,7 +19,7 @@ const COORDINATES: [(&str, &str, f64); 4] = [
     ("x, east (m)", "x − truth (m)", 1.0),
     ("y, north (m)", "y − truth (m)", 1.0),
     ("z, up (m)", "z − truth (m)", 1.0),
-    ("true − local time (ms)", "… − truth (ms)", 1e3),
+    ("clock: true − local time (ms)", "clock − truth (ms)", 1e3),
 ];
 
 const SLICES: (&str, Colour) = ("slices: hold it since the tick before", Colour::Sky);
