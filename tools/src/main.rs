@@ -38,6 +38,7 @@ mod sweep;
 mod tap;
 mod terminal;
 mod timings_text;
+mod view;
 
 use std::process::ExitCode;
 
@@ -65,6 +66,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Plot(args) => plot::plot(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
+        Command::View(args) => view::view(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
