@@ -13,6 +13,7 @@ use crate::plot::PlotArgs;
 use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
+use crate::view::ViewArgs;
 
 /// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
 /// sensors, and proves at every step that none of them loses the truth.
@@ -56,6 +57,13 @@ pub enum Command {
         after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
     )]
     Tap(TapArgs),
+    /// Show a record in the browser: positions, links, boxes and wavefronts, and what each AUV knows
+    #[command(
+        after_help = "Examples:\n  shoal run swarm-1000 --record flock.mcap\n  shoal view flock.mcap\n  \
+        shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
+        a secret, and a remote shell is told the `ssh -L` line that leads to it. Press ? on the page for its keys."
+    )]
+    View(ViewArgs),
     /// Find out where AUVs were, after the run: all trajectories of a record together, or one vehicle from files
     #[command(
         after_help = "From a record it writes a copy that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\

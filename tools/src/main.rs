@@ -39,6 +39,7 @@ mod sweep;
 mod tap;
 mod terminal;
 mod timings_text;
+mod view;
 
 use std::process::ExitCode;
 
@@ -67,6 +68,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Report(args) => report::report(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
+        Command::View(args) => view::view(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
