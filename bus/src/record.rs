@@ -43,6 +43,7 @@ mod verify;
 mod write;
 
 pub use error::{Damage, RecordFileError, RecordReadError, RecordWriteError};
+pub(crate) use foxglove::PoseBatches;
 pub use header::{RecordHeader, RecordedAuv};
 pub use info::{Chunks, Containment, RECORD_INFO_FORMAT, RecordInfo, StoredFile, TopicInfo, Truncation};
 pub use read::{Row, auvs_of, read_rows, rows_of};
@@ -69,4 +70,4 @@ const METADATA_OUTCOME: &str = "shoal.outcome";
 const METADATA_RECOVERED: &str = "shoal.recovered";
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -9,9 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
-use crate::plot::Kind;
+use crate::plot::PlotArgs;
+use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
+use crate::view::ViewArgs;
 
 /// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
 /// sensors, and proves at every step that none of them loses the truth.
@@ -55,6 +57,13 @@ pub enum Command {
         after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
     )]
     Tap(TapArgs),
+    /// Show a record in the browser: positions, links, boxes and wavefronts, and what each AUV knows
+    #[command(
+        after_help = "Examples:\n  shoal run swarm-1000 --record flock.mcap\n  shoal view flock.mcap\n  \
+        shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
+        a secret, and a remote shell is told the `ssh -L` line that leads to it. Press ? on the page for its keys."
+    )]
+    View(ViewArgs),
     /// Find out where AUVs were, after the run: all trajectories of a record together, or one vehicle from files
     #[command(
         after_help = "From a record it writes a copy that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\
@@ -66,9 +75,15 @@ pub enum Command {
     /// Draw a figure (SVG) of what a record holds
     #[command(
         after_help = "Examples:\n  shoal run six-circles --record circles.mcap\n  shoal plot circles.mcap losses -o losses.svg\n  \
+        shoal plot circles.mcap tubes --auv 3 -o tubes.svg\n  shoal plot circles.mcap map --at-s 12.5 -o map.svg\n  \
         rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
     )]
     Plot(PlotArgs),
+    /// Write a page (HTML) that says what a run amounts to, or what two runs differ in
+    #[command(after_help = "The page is one file that needs no other and no network.\n\nExamples:\n  \
+        shoal run swarm-300 --record flock.mcap\n  shoal report flock.mcap -o flock.html\n  \
+        shoal report flock.mcap other.mcap -o both.html\n  shoal report flock.mcap --markdown -o flock.md")]
+    Report(ReportArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {
@@ -283,27 +298,6 @@ pub struct SweepArgs {
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct PlotArgs {
-    /// The record, as `shoal run --record` leaves it
-    pub record: PathBuf,
-    /// What to draw
-    #[arg(value_enum)]
-    pub kind: Kind,
-    /// File to write; standard output unless given
-    #[arg(long, short, value_name = "FILE.svg")]
-    pub out: Option<PathBuf>,
-    /// For `rays`: depth of the source in metres; that of the first ping unless given
-    #[arg(long, value_name = "METRES")]
-    pub depth_m: Option<f64>,
-    /// For `tubes`: of which AUV, counted from 0
-    #[arg(long, value_name = "N")]
-    pub auv: Option<u32>,
-    /// For `rays`: how far to follow them, in metres; as far as pings went unless given
-    #[arg(long, value_name = "METRES")]
-    pub range_m: Option<f64>,
 }
 
 #[derive(Debug, Args)]

@@ -27,6 +27,7 @@ mod processes;
 mod processor;
 mod progress;
 mod record_info;
+mod report;
 mod run;
 mod scenario_order;
 mod scenarios;
@@ -38,6 +39,7 @@ mod sweep;
 mod tap;
 mod terminal;
 mod timings_text;
+mod view;
 
 use std::process::ExitCode;
 
@@ -63,8 +65,10 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Host(args) => host::host(args),
         Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
+        Command::Report(args) => report::report(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
+        Command::View(args) => view::view(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),

@@ -6,7 +6,7 @@ mod damage;
 mod outside;
 mod read;
 mod recover;
-mod synthetic;
+pub(crate) mod synthetic;
 mod verify;
 
 use super::rows::{PingRow, ReportRow, TruthRow};
