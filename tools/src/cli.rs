@@ -11,6 +11,7 @@ use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
 use crate::plot::PlotArgs;
 use crate::report::ReportArgs;
+use crate::record::RecordCommand;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
 use crate::view::ViewArgs;
@@ -20,8 +21,8 @@ use crate::view::ViewArgs;
 #[derive(Debug, Parser)]
 #[command(name = "shoal", version, max_term_width = 110)]
 #[command(
-    after_help = "Exit codes: 0 good, 1 failed, 2 usage or refused scenario, 3 finished with loss (an AUV died, or the run \
-    or its data are incomplete), 4 an enclosure did not hold the truth."
+    after_help = "Exit codes: 0 good, 1 failed, or what was compared differs, 2 usage or refused scenario, 3 finished with loss (an AUV \
+    died, or the run or its data are incomplete), 4 an enclosure did not hold the truth, 5 a record is damaged."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -140,19 +141,6 @@ pub enum BenchCommand {
         shoal bench scale --control-period-s 1"
     )]
     Scale(ScaleArgs),
-}
-
-#[derive(Debug, Subcommand)]
-pub enum RecordCommand {
-    /// What a record holds; verifies every checksum
-    #[command(after_help = "Example:\n  shoal record info flock.mcap")]
-    Info {
-        /// The record
-        file: PathBuf,
-        /// One JSON line
-        #[arg(long)]
-        json: bool,
-    },
 }
 
 #[derive(Debug, Args)]

@@ -26,7 +26,7 @@ mod plot;
 mod processes;
 mod processor;
 mod progress;
-mod record_info;
+mod record;
 mod report;
 mod run;
 mod scenario_order;
@@ -44,7 +44,7 @@ mod view;
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{BenchCommand, Cli, Command, RecordCommand};
+use cli::{BenchCommand, Cli, Command};
 use exit::Exit;
 use failure::{Failure, While};
 use shoal_bus::run_dir::RunDir;
@@ -71,7 +71,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::View(args) => view::view(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
-        Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Record { command } => record::run(command),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),

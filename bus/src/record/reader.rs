@@ -87,6 +87,8 @@ pub struct RecordReader<R> {
     chunk: Chunk,
     /// Where the next record of the open chunk begins, and where the chunk stands in the file.
     inside: Option<(usize, u64, u64)>,
+    /// Where the message handed over last stands in it.
+    last: Option<usize>,
     channels: Names,
     ending: Ending,
     is_over: bool,
@@ -113,7 +115,7 @@ impl<R: Read + Seek> RecordReader<R> {
         }
         let ending = Ending::Truncated { readable_bytes: 0 };
         let (chunk, channels) = (Chunk::default(), Names::default());
-        Ok(Self { frames, chunk, inside: None, channels, ending, is_over: false })
+        Ok(Self { frames, chunk, inside: None, last: None, channels, ending, is_over: false })
     }
 
     /// The next thing; `None` at the end.
@@ -122,6 +124,7 @@ impl<R: Read + Seek> RecordReader<R> {
     /// When the source cannot be read.
     #[expect(clippy::should_implement_trait, reason = "what it hands over borrows from the reader")]
     pub fn next(&mut self) -> Result<Option<Found<'_>>, RecordReadError> {
+        self.last = None;
         let place = match self.advance()? {
             Place::Damaged(wound) => return Ok(Some(Found::Damaged(wound))),
             Place::End => return Ok(None),
@@ -129,10 +132,10 @@ impl<R: Read + Seek> RecordReader<R> {
         };
         // What was found parses: that is how it was found.
         Ok(match place {
-            Place::Message(at) => match self.chunk.record_at(at) {
-                Ok(Some(within)) => self.channels.message(within.record).map(Found::Message),
-                _ => None,
-            },
+            Place::Message(at) => {
+                self.last = Some(at);
+                self.last_message().map(Found::Message)
+            }
             Place::Metadata | Place::Attachment => {
                 let opcode = if matches!(place, Place::Metadata) { op::METADATA } else { op::ATTACHMENT };
                 match parse_record(opcode, self.frames.body()) {
@@ -147,6 +150,14 @@ impl<R: Read + Seek> RecordReader<R> {
             }
             Place::Damaged(_) | Place::End => None,
         })
+    }
+
+    /// The message that [`next`](Self::next) handed over last; `None` once it was something else.
+    pub fn last_message(&self) -> Option<Message<'_>> {
+        match self.chunk.record_at(self.last?) {
+            Ok(Some(within)) => self.channels.message(within.record),
+            _ => None,
+        }
     }
 
     /// How the file ends, once [`next`](Self::next) has come to its end.
