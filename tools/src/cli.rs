@@ -12,6 +12,7 @@ use crate::localize::LocalizeArgs;
 use crate::plot::PlotArgs;
 use crate::report::ReportArgs;
 use crate::record::RecordCommand;
+use crate::replay::ReplayArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
 use crate::view::ViewArgs;
@@ -106,6 +107,16 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// Feed what AUVs were told in a recorded run to live ones, and show where they behave otherwise
+    #[command(
+        after_help = "The AUVs of today's code, or with another estimator, are told what those of the record were told, each from its birth on. \
+        What they answer is compared with what was answered then. It is an open loop: an AUV that answers otherwise is still told what \
+        it was told then, so what is compared is what its mind makes of the same measurements, not where another course would have led.\n\n\
+        Exits with 0 when all answers are the same, with 1 when some differ, with 4 when an enclosure that promises to hold the truth \
+        lost it where the recorded one held it.\n\nExamples:\n  shoal replay flock.mcap\n  shoal replay flock.mcap --estimator ekf\n  \
+        shoal replay flock.mcap --estimator '{ name = \"tube\", rings = 0 }' --json\n  shoal replay flock.mcap --from 10 --step 0.5"
+    )]
+    Replay(ReplayArgs),
     /// Measure this machine
     Bench {
         #[command(subcommand)]
@@ -365,7 +376,7 @@ pub enum Pace {
     Factor(f64),
 }
 
-fn parse_pace(text: &str) -> Result<Pace, String> {
+pub fn parse_pace(text: &str) -> Result<Pace, String> {
     match text {
         "max" => Ok(Pace::Max),
         _ => {

@@ -12,17 +12,17 @@
 //! | `select.rs` | which of them are wanted |
 //! | `source.rs` | a record that is read, with its troubles |
 
-mod batches;
+pub mod batches;
 mod cat;
 mod columns;
 pub mod compare;
-mod diff;
+pub mod diff;
 mod digest;
-mod events;
+pub mod events;
 mod export;
 mod info;
 mod recover;
-mod select;
+pub mod select;
 pub mod source;
 mod verify;
 
