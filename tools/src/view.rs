@@ -96,7 +96,9 @@ fn announce(server: &Server, args: &ViewArgs) {
     let _closed = out.flush();
     drop(out);
     if let Some(line) = browser::tunnel(server.port()) {
-        eprintln!("This is a remote shell. To see the page on your own machine, run there:\n  {line}\nand open the address above.");
+        eprintln!(
+            "This is a remote shell. To see the page on your own machine, run there:\n  {line}\nand open the address above."
+        );
     } else if !args.no_open && browser::open(&url) {
         eprintln!("Opened in the browser. Ctrl-C ends it.");
     } else {

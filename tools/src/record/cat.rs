@@ -46,7 +46,11 @@ pub fn cat(args: &CatArgs) -> Result<Exit, Failure> {
             Some(selected) => selected,
             None => selected.insert(args.selection.in_record(&record)?),
         };
-        for event in found.iter().filter(|event| selected.takes(topic, event)).take(usize::try_from(left).unwrap_or(usize::MAX)) {
+        for event in found
+            .iter()
+            .filter(|event| selected.takes(topic, event))
+            .take(usize::try_from(left).unwrap_or(usize::MAX))
+        {
             left -= 1;
             if writeln!(out, "{}", line(topic, &event.value)).is_err() {
                 // Whoever read us has enough.

@@ -91,11 +91,13 @@ impl<'a> Tables<'a> {
     fn new(args: &'a ExportArgs) -> Result<Self, Failure> {
         let mut open = BTreeMap::new();
         match (&args.out, args.selection.topics.as_slice()) {
-            (Some(folder), _) => std::fs::create_dir_all(folder)
-                .map_err(|error| wrong(folder, &error))?,
+            (Some(folder), _) => std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?,
             (None, [topic]) => {
                 let out = Box::new(BufWriter::new(io::stdout().lock()));
-                open.insert(topic.name(), (PathBuf::from("standard output"), Table::begin(out, *topic, args.format)));
+                open.insert(
+                    topic.name(),
+                    (PathBuf::from("standard output"), Table::begin(out, *topic, args.format)),
+                );
             }
             (None, _) => {
                 return Err(Failure::usage(

@@ -33,7 +33,11 @@ pub fn verify(args: &VerifyArgs) -> Result<Exit, Failure> {
     let file = File::open(&args.file).map_err(|error| wrong(&args.file, &error))?;
     let mut recount = Recount::default();
     let found = check(file, &mut |row| recount.take(row)).map_err(|error| wrong(&args.file, &error))?;
-    let fit = if found.is_whole() && found.recovered.is_none() { recount.finish() } else { Fit::Unknown("it is not whole") };
+    let fit = if found.is_whole() && found.recovered.is_none() {
+        recount.finish()
+    } else {
+        Fit::Unknown("it is not whole")
+    };
     let text = if args.json { line(&found, &fit) } else { text(args, &found, &fit) };
     // Whoever closed our output does not want it; the exit code still tells.
     let _closed = std::io::stdout().lock().write_all(text.as_bytes());
@@ -127,7 +131,9 @@ fn write(text: &mut String, args: &VerifyArgs, found: &Verification, fit: &Fit) 
     }
     match fit {
         Fit::Fits => writeln!(text, "digest: that of the events in it"),
-        Fit::Differs { found } => writeln!(text, "damaged: the digest is not that of the events in it, which is {found}"),
+        Fit::Differs { found } => {
+            writeln!(text, "damaged: the digest is not that of the events in it, which is {found}")
+        }
         Fit::Unknown(why) => writeln!(text, "digest: not compared with the events, as {why}"),
     }
 }

@@ -67,7 +67,9 @@ impl super::store::Reached {
         let Self { figures, first, end, done, note } = self;
         let note = json!(note);
         let figures = figures.join(",");
-        format!(r#"{{"reached":{{"first":{first},"end":{end},"done":{done},"note":{note},"figures":[{figures}]}}}}"#)
+        format!(
+            r#"{{"reached":{{"first":{first},"end":{end},"done":{done},"note":{note},"figures":[{figures}]}}}}"#
+        )
     }
 }
 
