@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
+use crate::manual::{CompletionsArgs, ManArgs};
 use crate::plot::PlotArgs;
 use crate::record::RecordCommand;
 use crate::report::ReportArgs;
@@ -118,6 +119,24 @@ pub enum Command {
         #[command(subcommand)]
         command: BenchCommand,
     },
+    /// Print the JSON Schema of scenario files, with which editors complete and check them
+    #[command(
+        after_help = "Example:\n  shoal schema > scenario.schema.json\n\nA scenario file that begins with the line\n  \
+        #:schema ./scenario.schema.json\nis completed and checked by every editor that knows taplo (Even Better TOML for VS Code, Helix, \
+        Neovim)."
+    )]
+    Schema,
+    /// Print completions for a shell
+    #[command(
+        after_help = "Examples:\n  shoal completions bash > ~/.local/share/bash-completion/completions/shoal\n  \
+        shoal completions zsh > \"${fpath[1]}/_shoal\"\n  shoal completions fish > ~/.config/fish/completions/shoal.fish"
+    )]
+    Completions(CompletionsArgs),
+    /// Print the manual page of a verb, or write all of them
+    #[command(
+        after_help = "Examples:\n  shoal man plot | man -l -\n  shoal man --out ~/.local/share/man/man1"
+    )]
+    Man(ManArgs),
     /// A program of the user's that is one AUV; started by `run`
     #[command(hide = true)]
     Agent(AgentArgs),

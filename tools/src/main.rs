@@ -21,6 +21,7 @@ mod janitor;
 mod launch;
 mod limits;
 mod localize;
+mod manual;
 mod memory;
 mod observers;
 mod plot;
@@ -74,6 +75,9 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command } => record::run(command),
+        Command::Schema => manual::schema(),
+        Command::Completions(args) => manual::completions(args),
+        Command::Man(args) => manual::man(args),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
