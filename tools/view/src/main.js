@@ -9,14 +9,14 @@ import { PANES, Stage } from './stage.js';
 
 const RATES = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30];
 /** Seconds of wall clock for which a wavefront fades where it ends. */
-const GLOW = 0.25;
+const GLOW = 0.12;
 
 const state = {
   t: 0, playing: false, rate: 1, selected: -1, follow: false, following: false, panes: false,
   layers: { bodies: true, links: false, boxes: true, waves: true },
 };
 let [cast, film, moment, stage, list, charts, track, visible] = [];
-let [version, frames, slow, last, shownNote] = [0, 0, 0, 0, ''];
+let [version, frames, spent, slow, last, shownNote] = [0, 0, 0, 0, 0, ''];
 const hash = new URLSearchParams(location.hash.slice(1));
 
 const source = open(hear, () => tellNote('The run is no longer shown: `shoal view` has ended.'));
@@ -184,6 +184,7 @@ function play(on) {
 
 function frame(now) {
   requestAnimationFrame(frame);
+  const began = performance.now();
   const passed = Math.min(0.25, (now - last) / 1000);
   last = now;
   advance(passed);
@@ -208,6 +209,7 @@ function frame(now) {
   label(main.clientWidth, main.clientHeight);
   dirty = false;
   frames++;
+  spent += performance.now() - began;
   tell(now);
 }
 
@@ -317,6 +319,8 @@ function tell(now) {
     button.setAttribute('aria-pressed', String(state.layers[name]));
     const on = state.layers[name] || state.panes;
     button.querySelector('output').textContent = on ? stage.counts[name].toLocaleString('en') : '';
+    const stride = name === 'links' && on ? stage.counts.linksDrawn : 1;
+    button.title = stride > 1 ? `One in ${stride} is drawn, and all of the selected AUV` : '';
   }
   list.tell(moment);
   charts.draw(film, track, state.t, film.end);
@@ -510,7 +514,7 @@ window.shoal = {
   get facts() {
     return {
       t: state.t, end: film?.end, done: film?.done, auvs: cast?.names.length, selected: state.selected, playing: state.playing, rate: state.rate,
-      counts: stage?.counts, calls: stage?.renderer.info.render.calls, frames, note: shownNote, rows: track?.rows.length, panes: state.panes,
+      counts: stage?.counts, calls: stage?.renderer.info.render.calls, frames, spent, note: shownNote, rows: track?.rows.length, panes: state.panes,
       layers: state.layers, theme: document.documentElement.dataset.theme, following: state.following,
       ready: Boolean(film?.get(Math.floor(state.t))), held: film?.bytes,
     };

@@ -240,9 +240,9 @@ export class Charts {
     fillFacts(this.facts, [
       ['east, north', `${x.toFixed(1)}, ${y.toFixed(1)} m`],
       ['depth', `${(-z).toFixed(1)} m`],
-      ['its box, east \u00d7 north \u00d7 up', `${[0, 2, 4].map((side) => (box[side + 1] - box[side]).toPrecision(3)).join(' \u00d7 ')} m`],
+      ['box', `${[0, 2, 4].map((side) => Number((box[side + 1] - box[side]).toPrecision(3))).join(' \u00d7 ')} m`],
       ['its clock is off by', `${duration(row.offset)}`],
-      ['of which it does not know', duration(clock[1] - clock[0])],
+      ['its clock interval', duration(clock[1] - clock[0])],
       ['truth inside', missed === 0 ? `at all ${track.rows.length.toLocaleString('en')} ticks` : `not at ${missed} of ${track.rows.length} ticks`, missed === 0 ? 'good' : 'bad'],
     ]);
     fillBars(this.bars, track.fates);
