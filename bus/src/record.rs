@@ -37,6 +37,7 @@ mod topics;
 mod write;
 
 pub use error::{Damage, RecordFileError, RecordReadError, RecordWriteError};
+pub(crate) use foxglove::PoseBatches;
 pub use header::{RecordHeader, RecordedAuv};
 pub use info::{Chunks, Containment, RECORD_INFO_FORMAT, RecordInfo, StoredFile, TopicInfo, Truncation};
 pub use read::{Row, read_rows};
@@ -57,4 +58,4 @@ const METADATA_RUN: &str = "shoal";
 const METADATA_OUTCOME: &str = "shoal.outcome";
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
-use crate::plot::Kind;
+use crate::plot::PlotArgs;
+use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
 use crate::view::ViewArgs;
@@ -74,9 +75,15 @@ pub enum Command {
     /// Draw a figure (SVG) of what a record holds
     #[command(
         after_help = "Examples:\n  shoal run six-circles --record circles.mcap\n  shoal plot circles.mcap losses -o losses.svg\n  \
+        shoal plot circles.mcap tubes --auv 3 -o tubes.svg\n  shoal plot circles.mcap map --at-s 12.5 -o map.svg\n  \
         rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
     )]
     Plot(PlotArgs),
+    /// Write a page (HTML) that says what a run amounts to, or what two runs differ in
+    #[command(after_help = "The page is one file that needs no other and no network.\n\nExamples:\n  \
+        shoal run swarm-300 --record flock.mcap\n  shoal report flock.mcap -o flock.html\n  \
+        shoal report flock.mcap other.mcap -o both.html\n  shoal report flock.mcap --markdown -o flock.md")]
+    Report(ReportArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {
@@ -291,27 +298,6 @@ pub struct SweepArgs {
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct PlotArgs {
-    /// The record, as `shoal run --record` leaves it
-    pub record: PathBuf,
-    /// What to draw
-    #[arg(value_enum)]
-    pub kind: Kind,
-    /// File to write; standard output unless given
-    #[arg(long, short, value_name = "FILE.svg")]
-    pub out: Option<PathBuf>,
-    /// For `rays`: depth of the source in metres; that of the first ping unless given
-    #[arg(long, value_name = "METRES")]
-    pub depth_m: Option<f64>,
-    /// For `tubes`: of which AUV, counted from 0
-    #[arg(long, value_name = "N")]
-    pub auv: Option<u32>,
-    /// For `rays`: how far to follow them, in metres; as far as pings went unless given
-    #[arg(long, value_name = "METRES")]
-    pub range_m: Option<f64>,
 }
 
 #[derive(Debug, Args)]

@@ -27,6 +27,7 @@ mod processes;
 mod processor;
 mod progress;
 mod record_info;
+mod report;
 mod run;
 mod scenario_order;
 mod scenarios;
@@ -64,6 +65,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Host(args) => host::host(args),
         Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
+        Command::Report(args) => report::report(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
         Command::View(args) => view::view(args),

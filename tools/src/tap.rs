@@ -4,9 +4,10 @@ use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use serde_json::json;
+use shoal_bus::record::rows::{PingRow, ReceptionRow};
+use shoal_bus::record::{Row, Topic};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::tap::{TapError, TapItem, TapSubscriber};
-use shoal_bus::traffic::{Fate, Reception, Traffic};
 
 use crate::cli::TapArgs;
 use crate::exit::Exit;
@@ -24,9 +25,10 @@ pub fn run(args: &TapArgs) -> Result<Exit, Failure> {
             }
             continue;
         };
-        let TapItem::Batch(batch) = item else { break };
-        for traffic in batch.traffic.iter().take(left.try_into().unwrap_or(usize::MAX)) {
-            let line = if args.json { json_line(traffic) } else { text_line(traffic) };
+        let TapItem::Window(window) = item else { break };
+        for row in window.rows.iter().take(left.try_into().unwrap_or(usize::MAX)) {
+            let Row::Ping(ping) = row else { continue };
+            let line = if args.json { json_line(ping) } else { text_line(ping) };
             if writeln!(out, "{line}").is_err() {
                 // Whoever read us has gone: so do we.
                 return Ok(Exit::Good);
@@ -75,7 +77,7 @@ fn attached(args: &TapArgs) -> Result<Attached, Failure> {
     let wrong = || Failure::usage(format!("--wait {}: give a number of seconds, 0 or more", args.wait));
     let deadline = deadline.ok_or_else(wrong)?;
     loop {
-        let attempt = chosen(args).and_then(|run| match TapSubscriber::attach(&run) {
+        let attempt = chosen(args).and_then(|run| match TapSubscriber::attach(&run, &[Topic::Pings]) {
             Ok(tap) => Ok(Attached { run, tap }),
             Err(_) => Err(Failure::failed(format!(
                 "run {} is just starting or ending and cannot be tapped; give --wait SECONDS",
@@ -117,23 +119,27 @@ fn list(runs: &[RunDir]) -> String {
     if runs.is_empty() { "none".to_owned() } else { runs.iter().map(name).collect::<Vec<_>>().join(", ") }
 }
 
-fn text_line(traffic: &Traffic) -> String {
-    let Traffic { at, from, sequence, fate } = traffic;
-    let at_s = at.as_s();
-    match fate {
-        Fate::Emitted { bytes, box_width_m, beyond_range, .. } => format!(
-            "{at_s:10.3} s  {from:>4} ->  all  emitted  #{sequence}  {bytes} B  box {box_width_m:.1} m  {beyond_range} beyond range"
+fn text_line(ping: &PingRow) -> String {
+    match ping {
+        PingRow::Emitted { t_ns, from, sequence, bytes, box_width_m, beyond_range, .. } => format!(
+            "{:10.3} s  {from:>4} ->  all  emitted  #{sequence}  {bytes} B  box {:.1} m  {beyond_range} beyond range",
+            t_ns.as_s(),
+            box_width_m.0
         ),
-        Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => format!(
-            "{at_s:10.3} s  {from:>4} -> {to:>4}  heard  {range_m:.1} m  {:.1} ms{}  box {box_width_m:.1} m{}",
-            travel_s * 1e3,
-            reception.map_or(String::new(), |reception| format!("  {}", reception_text(&reception))),
+        PingRow::Heard { t_ns, from, to, range_m, travel_s, box_width_m, reception, outlier, .. } => format!(
+            "{:10.3} s  {from:>4} -> {to:>4}  heard  {:.1} m  {:.1} ms{}  box {:.1} m{}",
+            t_ns.as_s(),
+            range_m.0,
+            travel_s.0 * 1e3,
+            reception.as_ref().map_or(String::new(), |reception| format!("  {}", reception_text(reception))),
+            box_width_m.0,
             if *outlier { "  outlier" } else { "" },
         ),
-        Fate::Lost { to, reason, range_m, reception, colliding } => {
+        PingRow::Lost { t_ns, from, to, reason, range_m, reception, colliding, .. } => {
             let to = to.map_or("-".to_owned(), |to| to.to_string());
-            let reception =
-                reception.map_or(String::new(), |reception| format!("  {}", reception_text(&reception)));
+            let reception = reception
+                .as_ref()
+                .map_or(String::new(), |reception| format!("  {}", reception_text(reception)));
             let with = match colliding.as_slice() {
                 [] => String::new(),
                 others => {
@@ -142,7 +148,9 @@ fn text_line(traffic: &Traffic) -> String {
                 }
             };
             format!(
-                "{at_s:10.3} s  {from:>4} -> {to:>4}  lost   {range_m:.1} m  {}{reception}{with}",
+                "{:10.3} s  {from:>4} -> {to:>4}  lost   {:.1} m  {}{reception}{with}",
+                t_ns.as_s(),
+                range_m.0,
                 reason.name()
             )
         }
@@ -150,53 +158,13 @@ fn text_line(traffic: &Traffic) -> String {
 }
 
 /// Received level, SINR and path.
-fn reception_text(reception: &Reception) -> String {
-    let Reception { path, level_db, sinr_db, .. } = reception;
-    format!("{level_db:.0} dB  SINR {sinr_db:.0} dB  {path}")
+fn reception_text(reception: &ReceptionRow) -> String {
+    let ReceptionRow { path, level_db, sinr_db, .. } = reception;
+    format!("{:.0} dB  SINR {:.0} dB  {path}", level_db.0, sinr_db.0)
 }
 
-fn reception_json(reception: &Reception) -> serde_json::Value {
-    let Reception { path, level_db, sinr_db, doppler } = reception;
-    json!({ "path": path.to_string(), "level_db": level_db, "sinr_db": sinr_db, "doppler": doppler })
-}
-
-fn json_line(traffic: &Traffic) -> String {
-    let Traffic { at, from, sequence, fate } = traffic;
-    let mut line = json!({
-        "format": "shoal.ping/1",
-        "time_ns": at.ns(),
-        "from": from,
-        "sequence": sequence,
-    });
-    let facts = match fate {
-        Fate::Emitted { position_m, bytes, box_width_m, beyond_range, packet_s } => json!({
-            "event": "emitted",
-            "position_m": position_m,
-            "bytes": bytes,
-            "box_width_m": box_width_m,
-            "beyond_range": beyond_range,
-            "packet_s": packet_s,
-        }),
-        Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => json!({
-            "event": "heard",
-            "to": to,
-            "range_m": range_m,
-            "travel_s": travel_s,
-            "box_width_m": box_width_m,
-            "reception": reception.as_ref().map(reception_json),
-            "outlier": outlier,
-        }),
-        Fate::Lost { to, reason, range_m, reception, colliding } => json!({
-            "event": "lost",
-            "to": to,
-            "reason": reason.name(),
-            "range_m": range_m,
-            "reception": reception.as_ref().map(reception_json),
-            "colliding": colliding,
-        }),
-    };
-    if let (Some(line), serde_json::Value::Object(facts)) = (line.as_object_mut(), facts) {
-        line.extend(facts);
-    }
+fn json_line(ping: &PingRow) -> String {
+    let mut line = json!(ping);
+    line["format"] = "shoal.ping/1".into();
     line.to_string()
 }

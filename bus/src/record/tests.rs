@@ -5,7 +5,7 @@ mod bytes;
 mod damage;
 mod outside;
 mod read;
-mod synthetic;
+pub(crate) mod synthetic;
 
 use super::rows::{PingRow, ReportRow, TruthRow};
 use super::*;

@@ -15,7 +15,8 @@ pub use append::{AppendError, append_offline};
 use super::batch::{Batch, batch_end};
 use super::foxglove::{Pose, PosesInFrame};
 use super::header::Auvs;
-use super::{METADATA_OUTCOME, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordWriteError, Topic};
+use super::rows::LogRow;
+use super::{METADATA_OUTCOME, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordWriteError, Row, Topic};
 use crate::chronicle::{Entry, Truth, What};
 use crate::codec;
 use crate::message::{AuvId, Born};
@@ -130,6 +131,39 @@ impl<W: Write> RecordWriter<W> {
         entries.iter().try_for_each(|entry| self.push(entry))
     }
 
+    /// As [`append`](Self::append), for rows that were read from a record or a live run. Topics that follow from others - header,
+    /// poses, what was told at birth - are left out, as is what is known after the run only.
+    ///
+    /// # Errors
+    /// As [`append`](Self::append).
+    pub fn append_rows(&mut self, rows: &[Row]) -> Result<(), RecordWriteError> {
+        rows.iter().try_for_each(|row| self.push_row(row))
+    }
+
+    fn push_row(&mut self, row: &Row) -> Result<(), RecordWriteError> {
+        let at = row.at();
+        self.batch_at(at)?;
+        if let Row::Truth(row) = row {
+            let auvs = self.latest.len();
+            let unknown = RecordWriteError::UnknownAuv { auv: row.auv, auvs };
+            *self.latest.get_mut(row.auv.0 as usize).ok_or(unknown)? = Some(row.truth());
+        }
+        self.batch_at(at)?.row(row)
+    }
+
+    /// The batch that holds `at`, once those before it are closed.
+    fn batch_at(&mut self, at: SimTime) -> Result<&mut Batch, RecordWriteError> {
+        if at < self.reached {
+            return Err(RecordWriteError::OutOfOrder { at, reached: self.reached });
+        }
+        self.reached = at;
+        let end = batch_end(at);
+        if self.batch.as_ref().is_some_and(|batch| batch.end != end) {
+            self.close_batch()?;
+        }
+        Ok(self.batch.get_or_insert_with(|| Batch::new(end)))
+    }
+
     /// Tells that all entries before `to` have been given; one at `to` itself may still come.
     ///
     /// # Errors
@@ -151,16 +185,7 @@ impl<W: Write> RecordWriter<W> {
     /// When the destination does not take the bytes.
     pub fn finish(mut self, summary: &Summary) -> Result<W, RecordWriteError> {
         self.close_batch()?;
-        let stored = Summary {
-            bus: None,
-            processes: None,
-            wall_s: None,
-            startup_s: None,
-            real_time_factor: None,
-            memory: None,
-            timings: None,
-            ..summary.clone()
-        };
+        let stored = summary.simulated();
         self.write(Topic::Summary, self.written, &serde_json::to_vec(&stored)?)?;
         self.mcap.write_metadata(&metadata(
             METADATA_OUTCOME,
@@ -208,8 +233,8 @@ impl<W: Write> RecordWriter<W> {
                 batch.acted(at, auv, local, acted)
             }
             What::Traffic(traffic) => batch.traffic(traffic),
-            What::Violation(violation) => batch.violation(at, name, violation),
-            What::Ended(reason) => batch.ended(at, name, reason),
+            What::Violation(violation) => batch.log(&LogRow::violation(at, name, violation)),
+            What::Ended(reason) => batch.log(&LogRow::ended(at, name, reason)),
             What::Flock(flock) => batch.flock(at, flock),
         }
     }

@@ -106,7 +106,13 @@ impl Gatherer {
             Row::Report(row) => self.report(row),
             Row::Ping(row) => self.ping(row),
             Row::Flock(row) => self.flock(row),
-            Row::Header(_) | Row::Sensed { .. } | Row::Born(_) | Row::Offline(_) => None,
+            Row::Header(_)
+            | Row::Sensed { .. }
+            | Row::Born(_)
+            | Row::Offline(_)
+            | Row::Poses(_)
+            | Row::Log(_)
+            | Row::Summary(_) => None,
         };
         if let Some(at) = at {
             while let Some(entry) = self.open.first_entry() {
