@@ -58,7 +58,8 @@ function begin(told) {
   find('live').hidden = !told.live;
   state.following = told.live;
   if (names.length <= 60) state.layers.links = true;
-  restore();
+  find('note').onclick = () => tellNote('');
+  restore(told);
   stage.surround(region(area));
   paint();
   requestAnimationFrame(frame);
@@ -71,12 +72,13 @@ function region(area) {
 }
 
 /** What the address says behind #: moment, AUV, layers. */
-function restore() {
+function restore(told) {
   const { layers } = state;
   if (hash.has('layers')) for (const name of Object.keys(layers)) layers[name] = hash.get('layers').split(',').includes(name);
   state.rate = RATES.find((rate) => rate === Number(hash.get('rate'))) ?? 1;
   state.panes = hash.has('panes');
   state.playing = !hash.has('pause') && !hash.has('t') && !matchMedia('(prefers-reduced-motion: reduce)').matches;
+  if (told.live) state.playing = true;
   if (hash.has('t')) {
     state.t = Number(hash.get('t')) || 0;
     state.following = false;
@@ -97,10 +99,14 @@ function reach(message) {
     hash.delete('auv');
     select(cast.names.includes(wanted) ? cast.names.indexOf(wanted) : Number(wanted), true);
   }
+  if (cast.live && message.done) {
+    state.following = false;
+    find('live').hidden = true;
+    find('about').textContent = find('about').textContent.replace(', live', '');
+  }
   if (track) askTrack();
   charts.stale = true;
   dirty = true;
-  // A mission that has outgrown its area, or whose area is unknown, is seen whole.
 }
 
 function askTrack() {

@@ -118,9 +118,9 @@ export class Charts {
       make('p', {}, summary),
       this.facts,
       ...this.chart('Width of boxes', 'm', (film) => ({ lines: two('width_m', 'width_max_m', 1)(film) }), { log: true }),
-      key(['median', median], ['widest', most]),
+      key(['median', median], ['widest', most, 'dashed']),
       ...this.chart('Width of clock intervals', 'ms', (film) => ({ lines: two('clock_s', 'clock_max_s', 1e3)(film) }), { log: true }),
-      key(['median', median], ['widest', most]),
+      key(['median', median], ['widest', most, 'dashed']),
       ...this.chart('Polarization', '1 when all head the same way', (film) => ({ lines: [{ ...figure('polarization')(film), colour: median }] }), { zero: true }),
       ...this.chart('Least separation', 'm', (film) => ({ lines: [{ ...figure('separation_m')(film), colour: median }] }), { zero: true }),
       make('h3', {}, 'Pings so far', make('small', {}, 'at each receiver')),
@@ -168,7 +168,7 @@ export class Charts {
       ...this.chart('Neighbours it heeds', '', (_, rows) => ({
         lines: [line(rows, ({ neighbours }) => neighbours, { colour: cx })],
       }), { zero: true }),
-      make('h3', {}, 'Pings to it', make('small', {}, 'whole run; out of range are not counted')),
+      make('h3', {}, 'Pings to it', make('small', {}, 'whole run')),
       this.bars,
     ];
   }

@@ -15,12 +15,12 @@ const WAVES_MAX = 2048;
 const TUBE_S = 20;
 const TUBE_BOXES = 10;
 
-/** Layers of seed 001, figure 6.4: (a) positions, (b) links, (c) boxes, (d) pings. */
+/** Seed 001, figure 6.4: (a) positions, (b) links, (c) boxes, (d) pings; bodies are smaller where they would hide what is shown. */
 export const PANES = [
-  { title: 'True positions', layers: ['bodies'] },
-  { title: 'Links in range', layers: ['bodies', 'links'] },
-  { title: 'Localization boxes', layers: ['bodies', 'boxes'] },
-  { title: 'Ping wavefronts', layers: ['bodies', 'waves'] },
+  { title: 'True positions', layers: ['bodies'], bodies: 1 },
+  { title: 'Links in range', layers: ['bodies', 'links'], bodies: 0.6 },
+  { title: 'Localization boxes', layers: ['bodies', 'boxes'], bodies: 0.4 },
+  { title: 'Ping wavefronts', layers: ['bodies', 'waves'], bodies: 0.5 },
 ];
 
 export class Stage {
@@ -39,7 +39,7 @@ export class Stage {
     const auvs = cast.names.length;
     this.pairs = new Uint32Array(2 * LINKS_MAX);
     this.bodies = new Bodies(auvs, auvs > 400);
-    this.bodies.uniforms.least.value = auvs > 2000 ? 6 : auvs > 400 ? 9 : auvs > 60 ? 12 : 17;
+    this.least = auvs > 2000 ? 6 : auvs > 400 ? 9 : auvs > 60 ? 12 : 17;
     this.boxes = new Segments(12 * (auvs + 2 * TUBE_BOXES) + 1300, 2);
     this.linksDrawn = antialias ? LINKS_DRAWN_MAX : LINKS_DRAWN_SOFTWARE;
     this.links = new Segments(this.linksDrawn + auvs, 1);
@@ -169,7 +169,7 @@ export class Stage {
     this.fillLinks(moment, film, view);
     this.waves.count = 0;
     if (layers.waves) {
-      const crowd = Math.min(1, Math.max(0.16, 70 / Math.max(1, this.counts.waves)));
+      const crowd = Math.min(1, Math.max(0.25, 110 / Math.max(1, this.counts.waves)));
       wavefronts(film, moment.t, cast, glow, (x, y, z, radius, from, strength) => {
         if (!visible[from]) return;
         const [r, g, b] = colours[cast.groupOf[from]];
@@ -252,6 +252,7 @@ export class Stage {
     const lit = Object.fromEntries(Object.entries(objects).map(([name, object]) => [name, object.visible]));
     for (const [index, pane] of (panes ? PANES : [{ layers: null }]).entries()) {
       const [left, top] = panes ? [(index % 2) * across, Math.floor(index / 2) * down] : [0, 0];
+      this.bodies.uniforms.least.value = this.least * pane.bodies;
       renderer.setViewport(left, height - top - down, across, down);
       renderer.setScissor(left, height - top - down, across, down);
       for (const [name, object] of Object.entries(objects)) {
