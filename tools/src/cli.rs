@@ -66,10 +66,10 @@ pub enum Command {
         path of a value in a message's JSON, as `shoal tap info TOPIC` lists them: `reception.sinr_db < 10 and not reason == noise`."
     )]
     Tap(TapArgs),
-    /// Show a record in the browser: positions, links, boxes and wavefronts, and what each AUV knows
+    /// Show a record or a live run in the browser: positions, links, boxes and wavefronts, and what each AUV knows
     #[command(
         after_help = "Examples:\n  shoal run swarm-1000 --record flock.mcap\n  shoal view flock.mcap\n  \
-        shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
+        shoal view --live --wait 60   (and in another shell: shoal run swarm-300 --pace 1)\n  shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
         a secret, and a remote shell is told the `ssh -L` line that leads to it. Press ? on the page for its keys."
     )]
     View(ViewArgs),

@@ -140,8 +140,11 @@ fn tracks(open: &Open) -> Vec<u8> {
 /// What the charts of the swarm show of this second: `null` stands for what is unknown.
 fn figures(second: u32, open: &Open, before: &[Option<Sample>]) -> String {
     let samples = open.samples.iter().zip(before);
-    let last: Vec<&Belief> =
-        samples.filter_map(|(samples, before)| samples.last().or(before.as_ref())?.belief.as_ref()).collect();
+    let last: Vec<&Belief> = samples
+        .filter_map(|(samples, before)| {
+            before.iter().chain(samples).rev().find_map(|row| row.belief.as_ref())
+        })
+        .collect();
     let [width_m, width_max_m] = median_and_most(last.iter().map(|belief| belief.width_m()).collect());
     let clock_widths =
         last.iter().map(|belief| belief.clock_offset_s[1] - belief.clock_offset_s[0]).collect();
