@@ -11,7 +11,7 @@ mod subscribe;
 mod topics;
 mod wire;
 
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -108,6 +108,8 @@ pub struct TapWindow {
     pub to: SimTime,
     /// Rows since the run's beginning, also of topics that this tap does not listen to.
     pub counts: Counts,
+    /// When it was published, by the wall clock of this host.
+    pub published: SystemTime,
     /// The rows of the topics listened to, sorted by time.
     pub rows: Vec<Row>,
 }

@@ -80,7 +80,7 @@ fn a_tap_sees_everything_from_when_it_attached() {
         publisher.publish(window(at), &entries(at, at as u32)).unwrap();
         counted += at;
         for tap in [&mut tap, &mut other] {
-            let TapWindow { to, counts, rows } = next_window(tap);
+            let TapWindow { to, counts, rows, .. } = next_window(tap);
             assert_eq!((to, rows.len() as u64), (window(at), at));
             assert!(rows.iter().all(|row| row.topic() == Topic::Pings && row.at() == to));
             assert_eq!((counts.of(LiveTopic::Pings), counts.of(LiveTopic::Log)), (counted, at + 1));

@@ -9,12 +9,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
+use crate::manual::{CompletionsArgs, ManArgs};
 use crate::plot::PlotArgs;
-use crate::report::ReportArgs;
 use crate::record::RecordCommand;
 use crate::replay::ReplayArgs;
+use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
+use crate::tap::TapArgs;
 use crate::view::ViewArgs;
 
 /// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
@@ -54,15 +56,21 @@ pub enum Command {
         With --csv or --runs a sweep that was stopped, however it was, goes on when the same command is given again."
     )]
     Sweep(SweepArgs),
-    /// Watch the pings of a live run on this host
+    /// Watch a live run on this host, or read a record the same way
     #[command(
-        after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
+        args_conflicts_with_subcommands = false,
+        after_help = "Without a verb it prints pings. `shoal tap help VERB` tells more about a verb.\n\nExamples:\n  shoal tap --wait 10\n  \
+        shoal tap --lost=noise,collision --filter 'range_m < 200'\n  shoal tap --run swarm-300 list\n  \
+        shoal tap echo /reports --filter 'auv == 7' --field t_s,neighbours\n  shoal tap hz /pings --once\n  shoal tap top --sort box\n  \
+        shoal tap -w part.mcap --duration 10\n  shoal tap -r part.mcap --from 3 --to 4 --csv > pings.csv\n\n\
+        Filters: FIELD == VALUE, != < <= > >=, FIELD in (A, B), FIELD ~ TEXT, FIELD alone; and, or, not, ( ). A field is the dotted \
+        path of a value in a message's JSON, as `shoal tap info TOPIC` lists them: `reception.sinr_db < 10 and not reason == noise`."
     )]
     Tap(TapArgs),
-    /// Show a record in the browser: positions, links, boxes and wavefronts, and what each AUV knows
+    /// Show a record or a live run in the browser: positions, links, boxes and wavefronts, and what each AUV knows
     #[command(
         after_help = "Examples:\n  shoal run swarm-1000 --record flock.mcap\n  shoal view flock.mcap\n  \
-        shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
+        shoal view --live --wait 60   (and in another shell: shoal run swarm-300 --pace 1)\n  shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
         a secret, and a remote shell is told the `ssh -L` line that leads to it. Press ? on the page for its keys."
     )]
     View(ViewArgs),
@@ -122,6 +130,24 @@ pub enum Command {
         #[command(subcommand)]
         command: BenchCommand,
     },
+    /// Print the JSON Schema of scenario files, with which editors complete and check them
+    #[command(
+        after_help = "Example:\n  shoal schema > scenario.schema.json\n\nA scenario file that begins with the line\n  \
+        #:schema ./scenario.schema.json\nis completed and checked by every editor that knows taplo (Even Better TOML for VS Code, Helix, \
+        Neovim)."
+    )]
+    Schema,
+    /// Print completions for a shell
+    #[command(
+        after_help = "Examples:\n  shoal completions bash > ~/.local/share/bash-completion/completions/shoal\n  \
+        shoal completions zsh > \"${fpath[1]}/_shoal\"\n  shoal completions fish > ~/.config/fish/completions/shoal.fish"
+    )]
+    Completions(CompletionsArgs),
+    /// Print the manual page of a verb, or write all of them
+    #[command(
+        after_help = "Examples:\n  shoal man plot | man -l -\n  shoal man --out ~/.local/share/man/man1"
+    )]
+    Man(ManArgs),
     /// A program of the user's that is one AUV; started by `run`
     #[command(hide = true)]
     Agent(AgentArgs),
@@ -297,22 +323,6 @@ pub struct SweepArgs {
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct TapArgs {
-    /// Id of the run, when several are live
-    #[arg(long)]
-    pub run: Option<String>,
-    /// One JSON line per event
-    #[arg(long)]
-    pub json: bool,
-    /// End after so many events
-    #[arg(long, value_name = "N")]
-    pub count: Option<u64>,
-    /// Wait so many seconds for a run to begin
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub wait: f64,
 }
 
 #[derive(Debug, Args)]

@@ -13,6 +13,7 @@ mod drive;
 mod exit;
 mod failure;
 mod figure;
+mod filter;
 mod free_run;
 mod host;
 mod hosts_fleet;
@@ -20,6 +21,7 @@ mod janitor;
 mod launch;
 mod limits;
 mod localize;
+mod manual;
 mod memory;
 mod observers;
 mod plot;
@@ -37,6 +39,7 @@ mod set;
 mod stopwatch;
 mod summary_text;
 mod sweep;
+mod table;
 mod tap;
 mod terminal;
 mod timings_text;
@@ -74,6 +77,9 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command } => record::run(command),
         Command::Replay(args) => replay::run(args),
+        Command::Schema => manual::schema(),
+        Command::Completions(args) => manual::completions(args),
+        Command::Man(args) => manual::man(args),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),

@@ -95,7 +95,7 @@ impl Serialize for Row {
             sensed: &'a Sensed,
         }
         match self {
-            Self::Header(header) => header.serialize(serializer),
+            Self::Header(header) => super::header::Auvs { auvs: &header.auvs }.serialize(serializer),
             Self::Truth(row) => row.serialize(serializer),
             Self::Report(row) => row.serialize(serializer),
             Self::Ping(row) => row.serialize(serializer),

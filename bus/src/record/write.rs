@@ -171,6 +171,18 @@ impl<W: Write> RecordWriter<W> {
         Ok(())
     }
 
+    /// Ends the record of a part of a run, without a summary, and hands back the flushed destination.
+    ///
+    /// # Errors
+    /// When the destination does not take the bytes.
+    pub fn close(mut self) -> Result<W, RecordWriteError> {
+        self.close_batch()?;
+        self.mcap.finish()?;
+        let mut writer = self.mcap.into_inner().into_inner();
+        writer.flush()?;
+        Ok(writer)
+    }
+
     /// Ends the record with `summary`, facts of the machine removed, and hands back the flushed destination.
     ///
     /// # Errors

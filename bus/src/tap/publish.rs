@@ -1,6 +1,6 @@
 //! The run's end of the tap.
 
-use std::time::Instant;
+use std::time::{Instant, SystemTime};
 
 use iceoryx2::prelude::{Node, PortFactory, ipc};
 
@@ -122,7 +122,11 @@ impl TapPublisher {
     }
 
     fn mark(&mut self) -> Result<(), TapError> {
-        self.marks.send(&codec::encode(&Mark::Here { to: self.to, counts: self.counts })?)
+        self.marks.send(&codec::encode(&Mark::Here {
+            to: self.to,
+            counts: self.counts,
+            published: SystemTime::now(),
+        })?)
     }
 
     fn tell_cast(&mut self) -> Result<(), TapError> {

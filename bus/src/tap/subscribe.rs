@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::fmt::Display;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use super::wire::{CAST, MARKS, Mark, Sample, SampleRow};
 use super::{Cast, Counts, LOOK_AGAIN, LiveTopic, TapError, TapItem, TapWindow};
@@ -26,6 +26,8 @@ pub struct TapSubscriber {
     is_asked_for_ticks: bool,
     /// Who takes part, once the first mark was seen.
     cast: Option<Cast>,
+    /// The first and the last mark.
+    since: Option<(SimTime, Counts)>,
     seen: Option<(SimTime, Counts)>,
 }
 
@@ -60,6 +62,7 @@ impl TapSubscriber {
             poses: topics.contains(&Topic::Poses).then(PoseBatches::default),
             is_asked_for_ticks: topics.contains(&Topic::Ticks),
             cast: None,
+            since: None,
             seen: None,
         })
     }
@@ -94,9 +97,9 @@ impl TapSubscriber {
         &self.run
     }
 
-    /// Rows of each topic when this tap began to listen; `None` before it did.
-    pub fn seen(&self) -> Option<(SimTime, Counts)> {
-        self.seen
+    /// How far the run was when this tap began to listen; `None` before it did.
+    pub fn since(&self) -> Option<(SimTime, Counts)> {
+        self.since
     }
 
     /// How many rows of each topic listened to were missed since it attached.
@@ -118,10 +121,11 @@ impl TapSubscriber {
 
     /// What `mark` completes; `None` when nothing has happened since the one before.
     fn take(&mut self, mark: Mark) -> Result<Option<TapItem>, TapError> {
-        let (to, counts, end) = match mark {
-            Mark::Here { to, counts } => (to, counts, None),
+        let (to, counts, published, end) = match mark {
+            Mark::Here { to, counts, published } => (to, counts, published, None),
             Mark::End { counts, summary } => {
-                (self.seen.map_or(SimTime::ZERO, |(to, _)| to), counts, Some(summary))
+                let to = self.seen.map_or(SimTime::ZERO, |(to, _)| to);
+                (to, counts, SystemTime::UNIX_EPOCH, Some(summary))
             }
         };
         if self.cast.is_none() {
@@ -130,6 +134,7 @@ impl TapSubscriber {
         }
         let before = self.seen.replace((to, counts));
         if before.is_none() {
+            self.since = self.seen;
             self.feeds.iter_mut().for_each(|feed| feed.next = counts.of(feed.topic));
         }
         if let Some(summary) = end {
@@ -141,7 +146,7 @@ impl TapSubscriber {
             return Ok(None);
         }
         let rows = self.rows(to, &counts)?;
-        Ok(Some(TapItem::Window(TapWindow { to, counts, rows })))
+        Ok(Some(TapItem::Window(TapWindow { to, counts, published, rows })))
     }
 
     /// The rows up to `counts`, sorted by time.

@@ -1,5 +1,7 @@
 //! What crosses shared memory between a run and its taps.
 
+use std::time::SystemTime;
+
 use serde::{Deserialize, Serialize};
 
 use super::Counts;
@@ -17,8 +19,8 @@ pub(super) const CAST: &str = "cast";
 /// seen one has been listening to all its topics since.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Mark {
-    /// All rows before `to` have been published.
-    Here { to: SimTime, counts: Counts },
+    /// All rows before `to` have been published, when the wall clock was at `published`.
+    Here { to: SimTime, counts: Counts, published: SystemTime },
     /// The run is over. The summary is JSON: it is not made for the codec.
     End { counts: Counts, summary: Option<String> },
 }

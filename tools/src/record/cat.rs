@@ -24,6 +24,7 @@ pub struct CatArgs {
 
 /// Prints them.
 pub fn cat(args: &CatArgs) -> Result<Exit, Failure> {
+    args.selection.check()?;
     let mut record = Record::open(&args.file)?;
     let mut out = BufWriter::new(io::stdout().lock());
     let mut left = args.selection.count.unwrap_or(u64::MAX);
@@ -46,7 +47,11 @@ pub fn cat(args: &CatArgs) -> Result<Exit, Failure> {
             Some(selected) => selected,
             None => selected.insert(args.selection.in_record(&record)?),
         };
-        for event in found.iter().filter(|event| selected.takes(topic, event)).take(usize::try_from(left).unwrap_or(usize::MAX)) {
+        for event in found
+            .iter()
+            .filter(|event| selected.takes(topic, event))
+            .take(usize::try_from(left).unwrap_or(usize::MAX))
+        {
             left -= 1;
             if writeln!(out, "{}", line(topic, &event.value)).is_err() {
                 // Whoever read us has enough.

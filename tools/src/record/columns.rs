@@ -89,16 +89,28 @@ const REPORTS: &[Column] = &[
     ("slice_y_upper_m", "/slice_position_m/1/1", ""),
     ("slice_z_lower_m", "/slice_position_m/2/0", "up"),
     ("slice_z_upper_m", "/slice_position_m/2/1", ""),
-    ("slice_clock_offset_lower_s", "/slice_clock_offset_s/0", "true time minus local time since the tick before"),
+    (
+        "slice_clock_offset_lower_s",
+        "/slice_clock_offset_s/0",
+        "true time minus local time since the tick before",
+    ),
     ("slice_clock_offset_upper_s", "/slice_clock_offset_s/1", ""),
-    ("emptied_at_local_ns", "/emptied/at_local_ns", "local time of the measurement that left nothing, if one did"),
+    (
+        "emptied_at_local_ns",
+        "/emptied/at_local_ns",
+        "local time of the measurement that left nothing, if one did",
+    ),
     ("emptied_by", "/emptied/by", "its kind"),
     ("emptied_sender", "/emptied/sender", "who sent the ping, if it was one"),
     ("neighbours", "/neighbours", "neighbours that the controller heeds"),
     ("contractions", "/contractions", "measurements that made the enclosure smaller since the tick before"),
     ("rejected", "/rejected", "pings taken for outliers, or dropped"),
     ("components", "/components", "separate parts of the set"),
-    ("around", "/around", "neighbours followed in its own frame: number:x_lower:x_upper:y_lower:y_upper in metres"),
+    (
+        "around",
+        "/around",
+        "neighbours followed in its own frame: number:x_lower:x_upper:y_lower:y_upper in metres",
+    ),
     ("mean_x_m", "/gaussian/mean/0", "mean of a Kalman filter, east"),
     ("mean_y_m", "/gaussian/mean/1", "north"),
     ("mean_z_m", "/gaussian/mean/2", "up"),
@@ -148,7 +160,11 @@ const SENSED: &[Column] = &[
     AUV,
     TICK,
     ("local_ns", "/stamp", "what the AUV's clock reads at the tick, nanoseconds"),
-    ("event_local_ns", "/event/stamp", "what it read at the event; empty for a tick at which nothing was told"),
+    (
+        "event_local_ns",
+        "/event/stamp",
+        "what it read at the event; empty for a tick at which nothing was told",
+    ),
     ("kind", "/kind", "inertial, dvl, depth, gnss, heard, held or bearing"),
     ("heading_rad", "/is/heading_rad/value", "heading"),
     ("heading_error_rad", "/is/heading_rad/error", "its stated bound"),
@@ -209,7 +225,11 @@ const FLOCK: &[Column] = &[
     ("min_separation_m", "/min_separation_m", "least distance between two bodies since the row before"),
     ("collisions", "/collisions", "pairs that came closer than their lengths allow, so far"),
     ("connectivity", "/connectivity", "part of all ordered pairs whose second is in range of the first"),
-    ("algebraic_connectivity", "/algebraic_connectivity", "second smallest eigenvalue of the graph's Laplacian"),
+    (
+        "algebraic_connectivity",
+        "/algebraic_connectivity",
+        "second smallest eigenvalue of the graph's Laplacian",
+    ),
     ("components", "/components", "connected components of the graph"),
     ("largest_component", "/largest_component", "AUVs in the largest of them"),
 ];
@@ -235,7 +255,9 @@ pub fn rows(topic: Topic, event: Value) -> Vec<Value> {
         Topic::Poses => {
             let t_ns = timestamp_ns(&event);
             let Some(poses) = event["poses"].as_array() else { return Vec::new() };
-            let pose = |(auv, pose): (usize, &Value)| with(with(pose.clone(), "auv", json!(auv)), "t_ns", json!(t_ns));
+            let pose = |(auv, pose): (usize, &Value)| {
+                with(with(pose.clone(), "auv", json!(auv)), "t_ns", json!(t_ns))
+            };
             poses.iter().enumerate().map(pose).collect()
         }
         Topic::Log => {

@@ -52,9 +52,14 @@ mod tests {
     fn fields_are_named_where_they_stand() {
         let a = json!({"t_ns": 5, "position_m": [[1.0, 2.0], [3.0, null]], "booked": [{"at": 1}]});
         let b = json!({"t_ns": 5, "position_m": [[1.0, 2.5], [3.0, null]], "emptied": "ping"});
-        let found: Vec<String> =
-            differences(&a, &b, 9).into_iter().map(|one| format!("{} {} {}", one.field, one.a, one.b)).collect();
-        assert_eq!(found, ["position_m[0][1] 2.0 2.5", r#"booked [{"at":1}] null"#, r#"emptied null "ping""#]);
+        let found: Vec<String> = differences(&a, &b, 9)
+            .into_iter()
+            .map(|one| format!("{} {} {}", one.field, one.a, one.b))
+            .collect();
+        assert_eq!(
+            found,
+            ["position_m[0][1] 2.0 2.5", r#"booked [{"at":1}] null"#, r#"emptied null "ping""#]
+        );
         assert_eq!(differences(&a, &b, 1).len(), 1);
         assert_eq!(differences(&a, &a, 9), []);
     }

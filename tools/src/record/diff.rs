@@ -182,7 +182,12 @@ impl Outcome {
             count.b += of(b);
             let messages = |batch: Option<&Batch>| -> Vec<Vec<u8>> {
                 batch.map_or(Vec::new(), |batch| {
-                    batch.messages.iter().filter(|(of, _)| *of == topic).map(|(_, data)| data.clone()).collect()
+                    batch
+                        .messages
+                        .iter()
+                        .filter(|(of, _)| *of == topic)
+                        .map(|(_, data)| data.clone())
+                        .collect()
                 })
             };
             if matches!((a, b), (Some(a), Some(b)) if a.messages == b.messages) {
@@ -229,7 +234,13 @@ impl Outcome {
         }
         writeln!(text, "\n{:10}  {:>10}  {:>10}  {:>10}", "messages", "in A", "in B", "different")?;
         for Count { topic, a, b, different } in self.topics.iter().filter(|count| count.a + count.b > 0) {
-            writeln!(text, "{topic:10}  {:>10}  {:>10}  {:>10}", grouped(*a), grouped(*b), grouped(*different))?;
+            writeln!(
+                text,
+                "{topic:10}  {:>10}  {:>10}  {:>10}",
+                grouped(*a),
+                grouped(*b),
+                grouped(*different)
+            )?;
         }
         Ok(())
     }

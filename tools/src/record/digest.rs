@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use shoal_bus::chronicle::{Entry, Truth, What};
 use shoal_bus::message::{
-    Acted, Around, AuvId, Bounds, Culprit, Emptied, Gaussian, MediumAccess, PlannedPing, Report, Setpoint, Slice,
+    Acted, Around, AuvId, Bounds, Culprit, Emptied, Gaussian, MediumAccess, PlannedPing, Report, Setpoint,
+    Slice,
 };
 use shoal_bus::ping::Frame;
 use shoal_bus::record::Row;
@@ -67,7 +68,12 @@ impl Recount {
                 }
                 return;
             }
-            Row::Header(_) | Row::Offline(_) | Row::Flock(_) | Row::Poses(_) | Row::Log(_) | Row::Summary(_) => return,
+            Row::Header(_)
+            | Row::Offline(_)
+            | Row::Flock(_)
+            | Row::Poses(_)
+            | Row::Log(_)
+            | Row::Summary(_) => return,
         };
         let end = batch_end(at);
         if end != self.end {
@@ -179,31 +185,35 @@ fn traffic(row: &PingRow) -> Option<Traffic> {
         Some(row) => reception(row).map(Some),
     };
     Some(match row {
-        PingRow::Emitted { t_ns, from, sequence, position_m, bytes, box_width_m, beyond_range, packet_s } => Traffic {
-            at: *t_ns,
-            from: *from,
-            sequence: *sequence,
-            fate: Fate::Emitted {
-                position_m: position_m.map(|real| real.0),
-                bytes: *bytes,
-                box_width_m: infinite_or(box_width_m.0),
-                beyond_range: *beyond_range,
-                packet_s: packet_s.0,
-            },
-        },
-        PingRow::Heard { t_ns, from, sequence, to, range_m, travel_s, box_width_m, reception, outlier } => Traffic {
-            at: *t_ns,
-            from: *from,
-            sequence: *sequence,
-            fate: Fate::Heard {
-                to: *to,
-                range_m: range_m.0,
-                travel_s: travel_s.0,
-                box_width_m: infinite_or(box_width_m.0),
-                reception: received(reception)?,
-                outlier: *outlier,
-            },
-        },
+        PingRow::Emitted { t_ns, from, sequence, position_m, bytes, box_width_m, beyond_range, packet_s } => {
+            Traffic {
+                at: *t_ns,
+                from: *from,
+                sequence: *sequence,
+                fate: Fate::Emitted {
+                    position_m: position_m.map(|real| real.0),
+                    bytes: *bytes,
+                    box_width_m: infinite_or(box_width_m.0),
+                    beyond_range: *beyond_range,
+                    packet_s: packet_s.0,
+                },
+            }
+        }
+        PingRow::Heard { t_ns, from, sequence, to, range_m, travel_s, box_width_m, reception, outlier } => {
+            Traffic {
+                at: *t_ns,
+                from: *from,
+                sequence: *sequence,
+                fate: Fate::Heard {
+                    to: *to,
+                    range_m: range_m.0,
+                    travel_s: travel_s.0,
+                    box_width_m: infinite_or(box_width_m.0),
+                    reception: received(reception)?,
+                    outlier: *outlier,
+                },
+            }
+        }
         PingRow::Lost { t_ns, from, sequence, to, reason, range_m, reception, colliding } => Traffic {
             at: *t_ns,
             from: *from,

@@ -51,6 +51,7 @@ pub fn export(args: &ExportArgs) -> Result<Exit, Failure> {
         let _closed = io::stdout().lock().write_all(description().as_bytes());
         return Ok(Exit::Good);
     };
+    args.selection.check()?;
     let mut record = Record::open(file)?;
     let mut tables = Tables::new(args)?;
     let mut left = args.selection.count.unwrap_or(u64::MAX);
@@ -91,11 +92,13 @@ impl<'a> Tables<'a> {
     fn new(args: &'a ExportArgs) -> Result<Self, Failure> {
         let mut open = BTreeMap::new();
         match (&args.out, args.selection.topics.as_slice()) {
-            (Some(folder), _) => std::fs::create_dir_all(folder)
-                .map_err(|error| wrong(folder, &error))?,
+            (Some(folder), _) => std::fs::create_dir_all(folder).map_err(|error| wrong(folder, &error))?,
             (None, [topic]) => {
                 let out = Box::new(BufWriter::new(io::stdout().lock()));
-                open.insert(topic.name(), (PathBuf::from("standard output"), Table::begin(out, *topic, args.format)));
+                open.insert(
+                    topic.name(),
+                    (PathBuf::from("standard output"), Table::begin(out, *topic, args.format)),
+                );
             }
             (None, _) => {
                 return Err(Failure::usage(

@@ -31,13 +31,14 @@ pub fn recover(args: &RecoverArgs) -> Result<Exit, Failure> {
     let out = args.out.clone().unwrap_or_else(|| args.file.with_extension("recovered.mcap"));
     let source = File::open(&args.file).map_err(|error| wrong(&args.file, &error))?;
     // Whatever is there, the source or something else, stays as it is.
-    let file = OpenOptions::new().write(true).create_new(true).open(&out).map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => Failure::usage(format!(
-            "{}: there is such a file already, and recover overwrites nothing: choose another with --out",
-            out.display()
-        )),
-        _ => Failure::failed(format!("{}: {error}; choose another place with --out", out.display())),
-    })?;
+    let file =
+        OpenOptions::new().write(true).create_new(true).open(&out).map_err(|error| match error.kind() {
+            std::io::ErrorKind::AlreadyExists => Failure::usage(format!(
+                "{}: there is such a file already, and recover overwrites nothing: choose another with --out",
+                out.display()
+            )),
+            _ => Failure::failed(format!("{}: {error}; choose another place with --out", out.display())),
+        })?;
     let recovery = copy(source, BufWriter::new(file)).map_err(|error| {
         // Half a copy helps nobody.
         let _removed = std::fs::remove_file(&out);
@@ -50,7 +51,8 @@ pub fn recover(args: &RecoverArgs) -> Result<Exit, Failure> {
 }
 
 fn line(recovery: &Recovery, out: &Path) -> String {
-    let lost = |Wound { from, to, damage }: &Wound| json!({"from": from, "to": to, "damage": damage.to_string()});
+    let lost =
+        |Wound { from, to, damage }: &Wound| json!({"from": from, "to": to, "damage": damage.to_string()});
     let cut = match recovery.ending {
         Ending::Truncated { readable_bytes } => Some(readable_bytes),
         Ending::Complete => None,
@@ -82,7 +84,9 @@ fn text(recovery: &Recovery, out: &Path) -> String {
     }
     if let Ending::Truncated { readable_bytes } = recovery.ending {
         let behind = grouped(recovery.source_bytes - readable_bytes);
-        text += &format!("lost: all behind byte {readable_bytes}, where it was cut; {behind} bytes of a piece were there\n");
+        text += &format!(
+            "lost: all behind byte {readable_bytes}, where it was cut; {behind} bytes of a piece were there\n"
+        );
     }
     if !recovery.has_outcome {
         text += "no summary and no digest: they are written when a run ends\n";

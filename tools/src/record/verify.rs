@@ -34,7 +34,11 @@ pub fn verify(args: &VerifyArgs) -> Result<Exit, Failure> {
     let mut recount = Recount::default();
     let found = check(file, &mut |row| recount.take(row)).map_err(|error| wrong(&args.file, &error))?;
     let is_complete = found.is_whole() && found.recovered.is_none();
-    let fit = if is_complete { recount.finish(found.digest.clone()) } else { Fit::Unknown("it is not whole") };
+    let fit = if is_complete {
+        recount.finish(found.digest.clone())
+    } else {
+        Fit::Unknown("some of them are missing")
+    };
     let text = if args.json { line(&found, &fit) } else { text(args, &found, &fit) };
     // Whoever closed our output does not want it; the exit code still tells.
     let _closed = std::io::stdout().lock().write_all(text.as_bytes());
@@ -128,7 +132,9 @@ fn write(text: &mut String, args: &VerifyArgs, found: &Verification, fit: &Fit) 
     }
     match fit {
         Fit::Fits => writeln!(text, "digest: that of the events in it"),
-        Fit::Differs { found } => writeln!(text, "damaged: the digest is not that of the events in it, which is {found}"),
+        Fit::Differs { found } => {
+            writeln!(text, "damaged: the digest is not that of the events in it, which is {found}")
+        }
         Fit::Unknown(why) => writeln!(text, "digest: not compared with the events, as {why}"),
     }
 }

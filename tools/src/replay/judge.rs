@@ -215,7 +215,9 @@ impl Judge {
 
 /// The width of a box is that of its widest side.
 fn width(sides: &[Pair]) -> f64 {
-    let side = |[lower, upper]: &Pair| if lower.0.is_finite() && upper.0.is_finite() { upper.0 - lower.0 } else { f64::INFINITY };
+    let side = |[lower, upper]: &Pair| {
+        if lower.0.is_finite() && upper.0.is_finite() { upper.0 - lower.0 } else { f64::INFINITY }
+    };
     sides.iter().map(side).fold(0.0, f64::max)
 }
 

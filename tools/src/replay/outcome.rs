@@ -233,8 +233,16 @@ impl Outcome {
         writeln!(
             text,
             "\n{:>15}  {:^31}  {:^31}\n{:>15}  {:>10} {:>10} {:>9}  {:>10} {:>10} {:>9}",
-            "", "position box, mean width (m)", "clock interval, mean width (ms)", "time (s)", "recorded", "replayed", "change",
-            "recorded", "replayed", "change"
+            "",
+            "position box, mean width (m)",
+            "clock interval, mean width (ms)",
+            "time (s)",
+            "recorded",
+            "replayed",
+            "change",
+            "recorded",
+            "replayed",
+            "change"
         )?;
         for Span { from_s, to_s, position_width_m, clock_width_s } in &self.over_time {
             write!(text, "{:>15}", format!("{from_s} to {to_s}"))?;
@@ -243,13 +251,9 @@ impl Outcome {
         write!(text, "{:>15}", "all")?;
         writeln!(text, "{}{}", self.position_width_m.columns(1.0), self.clock_width_s.columns(1e3))?;
         let Compared { wider, narrower, .. } = &self.position_width_m;
-        writeln!(
-            text,
-            "boxes are wider at {} ticks, narrower at {}",
-            grouped(*wider),
-            grouped(*narrower)
-        )?;
-        let Containment { checks, recorded_held, replayed_held, newly_lost, broken_promises } = &self.containment;
+        writeln!(text, "boxes are wider at {} ticks, narrower at {}", grouped(*wider), grouped(*narrower))?;
+        let Containment { checks, recorded_held, replayed_held, newly_lost, broken_promises } =
+            &self.containment;
         let part = |held: &u64| 100.0 * *held as f64 / (*checks).max(1) as f64;
         writeln!(
             text,
@@ -259,13 +263,19 @@ impl Outcome {
             grouped(*checks)
         )?;
         if *broken_promises > 0 {
-            writeln!(text, "VIOLATED: the truth was lost at {} ticks where the recorded enclosure held it", grouped(*newly_lost))?;
+            writeln!(
+                text,
+                "VIOLATED: the truth was lost at {} ticks where the recorded enclosure held it",
+                grouped(*newly_lost)
+            )?;
         }
         self.write_losses(text)
     }
 
     fn write_losses(&self, text: &mut String) -> std::fmt::Result {
-        self.lost.iter().try_for_each(|Lost { auv, reason }| writeln!(text, "AUV {auv} was lost in the replay: {reason}"))
+        self.lost
+            .iter()
+            .try_for_each(|Lost { auv, reason }| writeln!(text, "AUV {auv} was lost in the replay: {reason}"))
     }
 }
 
@@ -279,7 +289,11 @@ impl Compared {
     fn columns(&self, scale: f64) -> String {
         match (self.recorded_mean, self.replayed_mean) {
             (Some(recorded), Some(replayed)) => {
-                let change = if recorded > 0.0 { format!("{:+.2} %", 100.0 * (replayed / recorded - 1.0)) } else { "-".to_owned() };
+                let change = if recorded > 0.0 {
+                    format!("{:+.2} %", 100.0 * (replayed / recorded - 1.0))
+                } else {
+                    "-".to_owned()
+                };
                 format!("  {:>10.4} {:>10.4} {change:>9}", recorded * scale, replayed * scale)
             }
             _ => format!("  {:>10} {:>10} {:>9}", "-", "-", "-"),

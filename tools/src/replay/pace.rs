@@ -37,7 +37,14 @@ impl Pacer {
     pub fn new(rate: Pace, from: Option<SimTime>, pause: bool, step_s: Option<f64>) -> Self {
         let from = from.unwrap_or(SimTime::ZERO);
         let is_driven = pause || step_s.is_some();
-        Self { rate, from, stop_at: is_driven.then_some(from), step_s, keys: is_driven.then(keys), began: None }
+        Self {
+            rate,
+            from,
+            stop_at: is_driven.then_some(from),
+            step_s,
+            keys: is_driven.then(keys),
+            began: None,
+        }
     }
 
     /// Waits until `at` is due, at a stop for a key.

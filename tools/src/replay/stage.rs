@@ -48,7 +48,9 @@ impl Stage {
         let stillborn = stage.fleet.born(born).map_err(Failure::failed)?;
         match stillborn.first() {
             None => Ok(stage),
-            Some(loss) => Err(Failure::failed(format!("AUV {} could not be born: {}", loss.auv, loss.reason))),
+            Some(loss) => {
+                Err(Failure::failed(format!("AUV {} could not be born: {}", loss.auv, loss.reason)))
+            }
         }
     }
 
@@ -70,7 +72,8 @@ impl Stage {
         swarm.start_in_memory(&run, seats)?;
         fleet.attach_processes(&swarm.processes()).map_err(Failure::failed)?;
         let over = Arc::new(AtomicBool::new(false));
-        let (handle, interrupted, is_over) = (fleet.interrupt_handle(), Arc::clone(interrupted), Arc::clone(&over));
+        let (handle, interrupted, is_over) =
+            (fleet.interrupt_handle(), Arc::clone(interrupted), Arc::clone(&over));
         let watch = move || {
             while !is_over.load(Ordering::Acquire) {
                 if interrupted.load(Ordering::Acquire) {

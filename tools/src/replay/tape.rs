@@ -12,6 +12,9 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::record::batches::Batches;
 
+/// How the log tells of an AUV that is lost.
+const LOST: &str = "the AUV is lost";
+
 /// A record that is played.
 pub struct Tape {
     batches: Batches,
@@ -21,6 +24,8 @@ pub struct Tape {
     playing: BTreeMap<AuvId, Option<u64>>,
     /// Who is not played any more.
     left: BTreeSet<AuvId>,
+    /// Who was lost in the run.
+    dead: BTreeSet<AuvId>,
 }
 
 /// What happened in one batch.
@@ -47,7 +52,13 @@ impl Telling {
 
 impl Tape {
     pub fn open(batches: Batches, named: &[String]) -> Result<Self, Failure> {
-        Ok(Self { batches, named: named.to_vec(), playing: BTreeMap::new(), left: BTreeSet::new() })
+        Ok(Self {
+            batches,
+            named: named.to_vec(),
+            playing: BTreeMap::new(),
+            left: BTreeSet::new(),
+            dead: BTreeSet::new(),
+        })
     }
 
     /// What those who are played were told at birth, sorted by AUV.
@@ -103,7 +114,9 @@ impl Tape {
         let programs: Vec<u16> =
             groups.filter(|(_, group)| group.command.is_some()).map(|(index, _)| index as u16).collect();
         if !programs.is_empty() && self.named.is_empty() {
-            eprintln!("warning: AUVs that were programs of the user's are left out: only Shoal's own minds are replayed");
+            eprintln!(
+                "warning: AUVs that were programs of the user's are left out: only Shoal's own minds are replayed"
+            );
         }
         programs
     }
@@ -116,18 +129,24 @@ impl Tape {
         }
         let mut telling = Telling { at: batch.at, ..Telling::default() };
         let mut sensed: BTreeMap<AuvId, Vec<Sensed>> = BTreeMap::new();
-        let (playing, left) = (&mut self.playing, &mut self.left);
+        let mut lost: Vec<String> = Vec::new();
+        let (playing, left, dead) = (&mut self.playing, &mut self.left, &mut self.dead);
         for (topic, data) in &batch.messages {
-            if !matches!(topic, Topic::Ticks | Topic::Reports | Topic::Sensed) {
+            if !matches!(topic, Topic::Ticks | Topic::Reports | Topic::Sensed | Topic::Log) {
                 continue;
             }
             let visit = &mut |row| match row {
                 Row::Sensed { at, auv, sensed: told } => {
                     let Some(last) = playing.get_mut(&auv).filter(|_| !left.contains(&auv)) else { return };
-                    if last.is_some_and(|last| told.tick <= last) {
-                        eprintln!(
-                            "warning: AUV {auv} was born again at {at} s, and what it was told then is not in the record: it is replayed up to there"
-                        );
+                    // A mind that was not told all, or was born again, is another one.
+                    if told.tick != last.map_or(0, |last| last + 1) || dead.contains(&auv) {
+                        if left.is_empty() {
+                            eprintln!(
+                                "warning: AUV {auv} was born again, or the record lacks what it was told, just before {:.3} s: it is replayed up \
+                                 to there, and others of which this is true likewise",
+                                at.as_s()
+                            );
+                        }
                         left.insert(auv);
                         return;
                     }
@@ -139,10 +158,13 @@ impl Tape {
                     telling.reports.push(*row);
                 }
                 Row::Truth(row) if playing.contains_key(&row.auv) => telling.truth.push(row),
+                Row::Log(row) if row.message.starts_with(LOST) => lost.push(row.name),
                 _ => {}
             };
             rows_of(*topic, data, visit).map_err(|error| self.batches.record.wrong(&error))?;
         }
+        let names = self.batches.record.names.iter().zip(0..);
+        dead.extend(names.filter(|(name, _)| lost.contains(name)).map(|(_, auv)| AuvId(auv)));
         telling.sensed = sensed.into_iter().map(|(auv, items)| Batch { auv, items }).collect();
         Ok(Some(telling))
     }

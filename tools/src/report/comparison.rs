@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use toml_edit::{DocumentMut, Item, Value};
 
-use super::contents::{MEASURES, REASONS, scenario, shown};
+use super::contents::{MEASURES, REASONS, made, scenario, shown};
 use super::gather::{KINDS, Run};
-use super::margins::significant;
+use super::margins::in_unit;
 use super::page::{Block, Page, Table};
 use super::proof;
 use crate::figure::Figure;
@@ -31,7 +31,10 @@ pub fn page(first: Run, second: Run) -> Page {
     blocks.push(Block::Heading("Groups".to_owned()));
     blocks.push(Block::Table(groups(runs)));
     blocks.push(Block::Heading("Figures".to_owned()));
-    blocks.push(Block::Text("A to the left, B to the right, with the same axes but for maps.".to_owned()));
+    blocks.push(Block::Text(
+        "A comes first, B beside it where the screen is wide enough; axes are the same, but for maps."
+            .to_owned(),
+    ));
     for (name, kind) in KINDS {
         let figures: Vec<(&str, &Figure)> = ["a", "b"]
             .into_iter()
@@ -53,8 +56,9 @@ pub fn page(first: Run, second: Run) -> Page {
     blocks.push(Block::Heading("Scenarios".to_owned()));
     blocks.push(scenario(&first, "A as it was run"));
     blocks.push(scenario(&second, "B as it was run"));
+    blocks.push(made());
     Page {
-        title: format!("{} and {}", first.header.scenario_name, second.header.scenario_name),
+        title: format!("{} beside {}", first.header.scenario_name, second.header.scenario_name),
         subtitle: format!("A: {a}. B: {b}."),
         blocks,
     }
@@ -147,7 +151,7 @@ fn groups(runs: [&Run; 2]) -> Table {
                 value.map_or_else(|| "–".to_owned(), text)
             })
         };
-        let metres = |value: f64| format!("{} m", significant(value));
+        let metres = |value: f64| in_unit(value, "m");
         let cells = [
             both("auvs", |count| grouped(count as u64)),
             both("width_median_m", metres),

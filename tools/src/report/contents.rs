@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::gather::{KINDS, Run};
-use super::margins::significant;
+use super::margins::{in_unit, significant};
 use super::page::{Block, Page, Table};
 use super::proof;
 use crate::plot::{Kind, run_of};
@@ -46,7 +46,8 @@ pub fn page(run: Run) -> Page {
     blocks.push(Block::Heading("Scenario".to_owned()));
     blocks.push(scenario(&run, "The scenario as it was run"));
     blocks.extend(absent(&run));
-    Page { title: run.header.scenario_name.clone(), subtitle: run_of(&run.header), blocks }
+    blocks.push(made());
+    Page { title: format!("Report of {}", run.header.scenario_name), subtitle: run_of(&run.header), blocks }
 }
 
 /// The figures of these kinds that there are, one below the other.
@@ -66,6 +67,11 @@ fn absent(run: &Run) -> Option<Block> {
     });
     let missing: Vec<String> = missing.collect();
     (!missing.is_empty()).then(|| Block::Text(format!("Figures that are not here: {}.", missing.join("; "))))
+}
+
+/// What made the page: nothing of when or where, so that the same records have the same report.
+pub fn made() -> Block {
+    Block::Text(format!("Made by shoal report, version {}.", env!("CARGO_PKG_VERSION")))
 }
 
 /// The scenario's text, to be opened.
@@ -101,10 +107,10 @@ pub const MEASURES: [(&str, &str, f64, &str); 15] = [
     ("width of the position box, median at the start", "/position_width_m/start_median", 1.0, "m"),
     ("width of the position box, median at the end", "/position_width_m/end_median", 1.0, "m"),
     ("width of the position box, greatest at the end", "/position_width_m/end_max", 1.0, "m"),
-    ("width of the clock interval, median at the end", "/clock_width_s/end_median", 1e3, "ms"),
-    ("width of the clock interval, greatest at the end", "/clock_width_s/end_max", 1e3, "ms"),
+    ("width of the clock interval, median at the end", "/clock_width_s/end_median", 1.0, "s"),
+    ("width of the clock interval, greatest at the end", "/clock_width_s/end_max", 1.0, "s"),
     ("off station, median at the end", "/off_station_m/end_median", 1.0, "m"),
-    ("polarization at the end", "/flock/polarization", 1.0, "of 1"),
+    ("polarization at the end", "/flock/polarization", 100.0, "%"),
     ("least separation of two bodies", "/flock/min_separation_m", 1.0, "m"),
     ("collisions", "/flock/collisions", 1.0, ""),
     ("pairs in range at the end", "/flock/connectivity", 100.0, "%"),
@@ -115,6 +121,7 @@ pub const MEASURES: [(&str, &str, f64, &str); 15] = [
 pub fn shown(value: f64, factor: f64, unit: &str) -> String {
     match unit {
         "" => grouped(value as u64),
+        "m" | "s" => in_unit(value * factor, unit),
         unit => format!("{} {unit}", significant(value * factor)),
     }
 }
@@ -141,11 +148,8 @@ fn groups(run: &Run) -> Option<Block> {
     ]);
     for line in lines {
         let text = |key: &str| line[key].as_str().unwrap_or("–").to_owned();
-        let number = |key: &str, factor: f64, unit: &str| {
-            line[key]
-                .as_f64()
-                .map_or_else(|| "–".to_owned(), |value| format!("{}{unit}", significant(value * factor)))
-        };
+        let length =
+            |key: &str| line[key].as_f64().map_or_else(|| "–".to_owned(), |value| in_unit(value, "m"));
         let estimator = match line["fusion"].as_str() {
             Some(fusion) => format!("{}, {fusion}", text("estimator")),
             None => text("estimator"),
@@ -156,9 +160,9 @@ fn groups(run: &Run) -> Option<Block> {
             grouped(line["auvs"].as_u64().unwrap_or(0)),
             estimator,
             inside.map_or_else(|| "–".to_owned(), percent),
-            number("nees_mean", 1.0, ""),
-            number("centre_rms_m", 1.0, " m"),
-            number("width_median_m", 1.0, " m"),
+            line["nees_mean"].as_f64().map_or_else(|| "–".to_owned(), significant),
+            length("centre_rms_m"),
+            length("width_median_m"),
         ]);
     }
     Some(Block::Table(table))

@@ -12,16 +12,16 @@ use crate::summary_text::grouped;
 /// Differences of the record's numbers are rounded: a margin that misses by less is none that is missed.
 const ROUNDING: f64 = 1e-12;
 
-/// What is checked, and the unit of its margins in the table with its factor.
-const CHECKS: [(&str, &str, f64); 8] = [
-    ("position at a tick, east", "m", 1.0),
-    ("position at a tick, north", "m", 1.0),
-    ("position at a tick, up", "m", 1.0),
-    ("clock at a tick", "ms", 1e3),
-    ("position since the tick before, east", "m", 1.0),
-    ("position since the tick before, north", "m", 1.0),
-    ("position since the tick before, up", "m", 1.0),
-    ("clock since the tick before", "ms", 1e3),
+/// What is checked, and the unit of its margins.
+const CHECKS: [(&str, &str); 8] = [
+    ("position at a tick, east", "m"),
+    ("position at a tick, north", "m"),
+    ("position at a tick, up", "m"),
+    ("clock at a tick", "s"),
+    ("position since the tick before, east", "m"),
+    ("position since the tick before, north", "m"),
+    ("position since the tick before, up", "m"),
+    ("clock since the tick before", "s"),
 ];
 
 /// The margins of all reports, as far as an AUV promises anything.
@@ -119,12 +119,12 @@ impl Margins {
     /// A row for each kind; `name` tells what an AUV is called.
     pub fn table(&self, name: impl Fn(AuvId) -> String) -> Table {
         let mut table = Table::new(&["enclosure", "checked", "truth outside", "least margin", "of", "at"]);
-        for (found, (what, unit, scale)) in self.found.iter().zip(CHECKS) {
+        for (found, (what, unit)) in self.found.iter().zip(CHECKS) {
             let (margin, auv, at) = match found.least {
                 Some((margin, auv, t_ns)) => {
                     // At most rounding.
                     let margin = if margin.abs() <= ROUNDING { 0.0 } else { margin };
-                    let margin = format!("{} {unit}", significant(margin * scale));
+                    let margin = in_unit(margin, unit);
                     (margin, name(auv), format!("{:.3} s", t_ns as f64 * 1e-9))
                 }
                 None => ("–".to_owned(), "–".to_owned(), "–".to_owned()),
@@ -151,6 +151,18 @@ pub fn significant(value: f64) -> String {
     format!("{value:.*}", decimals.saturating_sub(spare))
 }
 
+/// Three significant digits in the unit, or in thousandths of it as small as needed.
+pub fn in_unit(value: f64, unit: &str) -> String {
+    let mut scaled = value;
+    for prefix in ["", "m", "µ"] {
+        if scaled == 0.0 || scaled.abs() >= 1.0 || !scaled.is_finite() {
+            return format!("{} {prefix}{unit}", significant(scaled));
+        }
+        scaled *= 1e3;
+    }
+    format!("{} n{unit}", significant(scaled))
+}
+
 #[cfg(test)]
 mod tests {
     use shoal_bus::record::rows::Real;
@@ -173,6 +185,8 @@ mod tests {
     fn numbers_have_three_digits() {
         let texts =
             [0.0, 1.2345, 12.345, 123.45, 12345.0, 0.012345, -0.00012345, f64::INFINITY].map(significant);
+        let lengths = [0.0, 12.34, 0.01234, -1.5e-6, 2.6e-8, 1e-10].map(|value| in_unit(value, "m"));
+        assert_eq!(lengths, ["0 m", "12.3 m", "12.3 mm", "-1.50 µm", "26.0 nm", "0.100 nm"]);
         assert_eq!(texts, ["0", "1.23", "12.3", "123", "12345", "0.0123", "-0.000123", "unbounded"]);
     }
 }

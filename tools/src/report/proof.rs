@@ -8,21 +8,22 @@ use crate::summary_text::grouped;
 
 /// The one sentence to know.
 pub fn verdict(run: &Run) -> Block {
-    let (Some(checks), Some(violations)) =
-        (run.number("/containment/checks"), run.number("/containment/violations"))
-    else {
-        return Block::Verdict {
-            is_good: false,
-            text: "The record ends before the run does: nothing is proven about its end.".to_owned(),
-        };
-    };
-    let (checks, violations) = (grouped(checks as u64), violations as u64);
-    let text = match violations {
-        0 => format!("No enclosure lost the truth in {checks} checks."),
-        1 => format!("1 enclosure lost the truth in {checks} checks."),
-        count => format!("{} enclosures lost the truth in {checks} checks.", grouped(count)),
-    };
-    Block::Verdict { is_good: violations == 0, text }
+    let is_good = run.number("/containment/violations") == Some(0.0);
+    Block::Verdict { is_good, text: counted(run) }
+}
+
+/// What the channel counted.
+fn counted(run: &Run) -> String {
+    let count = |pointer: &str| run.number(pointer).map(|count| count as u64);
+    match (count("/containment/checks"), count("/containment/violations")) {
+        (Some(0), Some(_)) => "Nothing was checked.".to_owned(),
+        (Some(checks), Some(0)) => format!("No enclosure lost the truth in {} checks.", grouped(checks)),
+        (Some(checks), Some(1)) => format!("1 enclosure lost the truth in {} checks.", grouped(checks)),
+        (Some(checks), Some(violations)) => {
+            format!("{} enclosures lost the truth in {} checks.", grouped(violations), grouped(checks))
+        }
+        _ => "The record ends before the run does: nothing is proven about its end.".to_owned(),
+    }
 }
 
 /// The section.
@@ -32,11 +33,12 @@ pub fn blocks(run: &Run) -> Vec<Block> {
         Block::Heading("Containment".to_owned()),
         Block::Text(
             "While the simulation ran, the channel, which alone knows the truth, compared it with every enclosure that an AUV \
-             stated: its box and clock interval at each tick, the slice since the tick before at sampled moments, and the box \
-             and emission time that each ping carries. Kalman filters promise nothing and are not counted."
+             stated: its box and clock interval at each tick, its slice since the tick before at a moment in it, and the box, \
+             velocities and emission time that each ping carries. An enclosure that emptied counts as one that lost the truth. \
+             Kalman filters promise nothing and are not counted."
                 .to_owned(),
         ),
-        verdict(run),
+        Block::Text(counted(run)),
     ];
     blocks.extend(counted_apart(run));
     let first = run.rows("/containment/first");

@@ -59,7 +59,12 @@ fn write(out: &mut impl Write, cast: &Cast, store: &Store) -> io::Result<()> {
         write!(out, "\"}}")?;
     }
     write!(out, "]}}</script>\n<!--\n{}\n-->\n", LICENCES.replace("--", "- -"))?;
-    write!(out, "<script type=\"module\">{}</script>{}", SCRIPT.replace("</script", "<\\/script"), end.replacen(called, "", 1))?;
+    write!(
+        out,
+        "<script type=\"module\">{}</script>{}",
+        SCRIPT.replace("</script", "<\\/script"),
+        end.replacen(called, "", 1)
+    )?;
     out.flush()
 }
 

@@ -45,7 +45,8 @@ pub fn start(path: &Path, store: Arc<Store>) -> Result<Reading, Failure> {
             }
         }
     };
-    let thread = std::thread::Builder::new().name("reader".to_owned()).spawn(read).while_doing("start a thread")?;
+    let thread =
+        std::thread::Builder::new().name("reader".to_owned()).spawn(read).while_doing("start a thread")?;
     match told.recv() {
         Ok(Ok(cast)) => Ok(Reading { cast: Arc::new(cast), store, thread }),
         Ok(Err(error)) => Err(Failure::failed(format!("{name}: {error}"))),
@@ -54,11 +55,7 @@ pub fn start(path: &Path, store: Arc<Store>) -> Result<Reading, Failure> {
 }
 
 /// Reads all of `file`; returns what the user must know.
-fn gather(
-    file: File,
-    store: &Store,
-    tell: Sender<Result<Cast, String>>,
-) -> Result<String, RecordReadError> {
+fn gather(file: File, store: &Store, tell: Sender<Result<Cast, String>>) -> Result<String, RecordReadError> {
     let mut gatherer: Option<Gatherer> = None;
     // The first thing that went wrong with the store: nothing is put after it.
     let failed = OnceLock::new();
@@ -94,4 +91,3 @@ fn gather(
         Ending::Truncated { .. } => "The record was cut: this is all that is in it.".to_owned(),
     })
 }
-

@@ -108,7 +108,9 @@ mod tests {
         let path = |file: &str| format!("/{TOKEN}/{file}");
         assert_eq!(asked(&path(""), &host), Ok(Wanted::Page));
         assert_eq!(asked(&path("view.js"), &[("host", "localhost:9")]), Ok(Wanted::Script));
-        for path in ["/", "/view.js", "//view.js", "/00112233445566778899aabbccddeef0/", "/0/", &path("../secret")] {
+        for path in
+            ["/", "/view.js", "//view.js", "/00112233445566778899aabbccddeef0/", "/0/", &path("../secret")]
+        {
             assert_eq!(asked(path, &host), Err(Refused::NotFound), "{path}");
         }
     }

@@ -136,9 +136,12 @@ fn connection(mut stream: TcpStream, shared: &Shared) -> io::Result<()> {
         Err(Refused::Foreign) => {
             answer(&mut stream, "403 Forbidden", "text/plain", "only for pages of this machine\n")
         }
-        Err(Refused::NotFound) => {
-            answer(&mut stream, "404 Not Found", "text/plain", "use the whole address that `shoal view` printed\n")
-        }
+        Err(Refused::NotFound) => answer(
+            &mut stream,
+            "404 Not Found",
+            "text/plain",
+            "use the whole address that `shoal view` printed\n",
+        ),
     }
 }
 

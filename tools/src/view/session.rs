@@ -15,7 +15,7 @@ use tungstenite::{Error, Message, WebSocket};
 
 use super::cast::Cast;
 use super::chunk::TrackPart;
-use super::store::Store;
+use super::store::{Reached, Store};
 
 /// How often a page is told how far it is.
 const NEWS: Duration = Duration::from_millis(100);
@@ -35,13 +35,15 @@ enum Ask {
 pub fn hold(mut socket: WebSocket<TcpStream>, cast: &Cast, store: &Store) -> Result<(), Error> {
     socket.get_ref().set_read_timeout(Some(NEWS)).map_err(Error::Io)?;
     socket.send(Message::text(json!({ "cast": cast }).to_string()))?;
+    // What the page was told last, without the lines about seconds.
     let mut told = None;
     loop {
-        let reached = store.reached(told.map_or(0, |(end, _, _)| end));
-        let now = (reached.end, reached.done, reached.first);
-        if told != Some(now) {
-            told = Some(now);
-            socket.send(Message::text(reached.message()))?;
+        let mut reached = store.reached(told.as_ref().map_or(0, |told: &Reached| told.end));
+        let message = reached.message();
+        reached.figures.clear();
+        if told.as_ref() != Some(&reached) {
+            told = Some(reached);
+            socket.send(Message::text(message))?;
         }
         match socket.read() {
             Ok(Message::Text(text)) => {
@@ -61,13 +63,15 @@ pub fn hold(mut socket: WebSocket<TcpStream>, cast: &Cast, store: &Store) -> Res
     }
 }
 
-impl super::store::Reached {
+impl Reached {
     /// As the page is told. The lines are JSON already.
     pub fn message(&self) -> String {
         let Self { figures, first, end, done, note } = self;
         let note = json!(note);
         let figures = figures.join(",");
-        format!(r#"{{"reached":{{"first":{first},"end":{end},"done":{done},"note":{note},"figures":[{figures}]}}}}"#)
+        format!(
+            r#"{{"reached":{{"first":{first},"end":{end},"done":{done},"note":{note},"figures":[{figures}]}}}}"#
+        )
     }
 }
 

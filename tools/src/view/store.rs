@@ -63,7 +63,6 @@ impl Store {
     }
 
     /// Keeps the last seconds, so many bytes of them.
-    #[cfg_attr(not(test), expect(dead_code, reason = "for live runs"))]
     pub fn in_memory(limit_bytes: usize) -> Self {
         Self { kept: Mutex::default(), file: None, limit_bytes }
     }
@@ -97,6 +96,11 @@ impl Store {
             kept.bytes -= (oldest.scene.length() + oldest.tracks.length()) as u64;
         }
         Ok(())
+    }
+
+    /// Tells what the user must know by now.
+    pub fn warn(&self, note: String) {
+        self.kept().note = note;
     }
 
     /// Tells that nothing more will come, with what the user must know.

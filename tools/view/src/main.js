@@ -9,14 +9,14 @@ import { PANES, Stage } from './stage.js';
 
 const RATES = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30];
 /** Seconds of wall clock for which a wavefront fades where it ends. */
-const GLOW = 0.25;
+const GLOW = 0.12;
 
 const state = {
   t: 0, playing: false, rate: 1, selected: -1, follow: false, following: false, panes: false,
   layers: { bodies: true, links: false, boxes: true, waves: true },
 };
 let [cast, film, moment, stage, list, charts, track, visible] = [];
-let [version, frames, slow, last, shownNote] = [0, 0, 0, 0, ''];
+let [version, frames, spent, slow, last, shownNote] = [0, 0, 0, 0, 0, ''];
 const hash = new URLSearchParams(location.hash.slice(1));
 
 const source = open(hear, () => tellNote('The run is no longer shown: `shoal view` has ended.'));
@@ -58,7 +58,8 @@ function begin(told) {
   find('live').hidden = !told.live;
   state.following = told.live;
   if (names.length <= 60) state.layers.links = true;
-  restore();
+  find('note').onclick = () => tellNote('');
+  restore(told);
   stage.surround(region(area));
   paint();
   requestAnimationFrame(frame);
@@ -71,12 +72,13 @@ function region(area) {
 }
 
 /** What the address says behind #: moment, AUV, layers. */
-function restore() {
+function restore(told) {
   const { layers } = state;
   if (hash.has('layers')) for (const name of Object.keys(layers)) layers[name] = hash.get('layers').split(',').includes(name);
   state.rate = RATES.find((rate) => rate === Number(hash.get('rate'))) ?? 1;
   state.panes = hash.has('panes');
   state.playing = !hash.has('pause') && !hash.has('t') && !matchMedia('(prefers-reduced-motion: reduce)').matches;
+  if (told.live) state.playing = true;
   if (hash.has('t')) {
     state.t = Number(hash.get('t')) || 0;
     state.following = false;
@@ -97,10 +99,14 @@ function reach(message) {
     hash.delete('auv');
     select(cast.names.includes(wanted) ? cast.names.indexOf(wanted) : Number(wanted), true);
   }
+  if (cast.live && message.done) {
+    state.following = false;
+    find('live').hidden = true;
+    find('about').textContent = find('about').textContent.replace(', live', '');
+  }
   if (track) askTrack();
   charts.stale = true;
   dirty = true;
-  // A mission that has outgrown its area, or whose area is unknown, is seen whole.
 }
 
 function askTrack() {
@@ -184,6 +190,7 @@ function play(on) {
 
 function frame(now) {
   requestAnimationFrame(frame);
+  const began = performance.now();
   const passed = Math.min(0.25, (now - last) / 1000);
   last = now;
   advance(passed);
@@ -208,6 +215,7 @@ function frame(now) {
   label(main.clientWidth, main.clientHeight);
   dirty = false;
   frames++;
+  spent += performance.now() - began;
   tell(now);
 }
 
@@ -317,6 +325,8 @@ function tell(now) {
     button.setAttribute('aria-pressed', String(state.layers[name]));
     const on = state.layers[name] || state.panes;
     button.querySelector('output').textContent = on ? stage.counts[name].toLocaleString('en') : '';
+    const stride = name === 'links' && on ? stage.counts.linksDrawn : 1;
+    button.title = stride > 1 ? `One in ${stride} is drawn, and all of the selected AUV` : '';
   }
   list.tell(moment);
   charts.draw(film, track, state.t, film.end);
@@ -510,7 +520,7 @@ window.shoal = {
   get facts() {
     return {
       t: state.t, end: film?.end, done: film?.done, auvs: cast?.names.length, selected: state.selected, playing: state.playing, rate: state.rate,
-      counts: stage?.counts, calls: stage?.renderer.info.render.calls, frames, note: shownNote, rows: track?.rows.length, panes: state.panes,
+      counts: stage?.counts, calls: stage?.renderer.info.render.calls, frames, spent, note: shownNote, rows: track?.rows.length, panes: state.panes,
       layers: state.layers, theme: document.documentElement.dataset.theme, following: state.following,
       ready: Boolean(film?.get(Math.floor(state.t))), held: film?.bytes,
     };

@@ -62,7 +62,11 @@ export class Moment {
     const turn = to.heading[other] - here.heading[row];
     this.heading[auv] = here.heading[row] + part * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI)));
     this.pitch[auv] = mix(here.pitch[row], to.pitch[other]);
-    for (let side = 0; side < 6; side++) this.box[6 * auv + side] = mix(here.box[side][row], to.box[side][other]);
+    // At its last tick an AUV has not answered yet.
+    const answered = !Number.isNaN(to.box[0][other]);
+    for (let side = 0; side < 6; side++) {
+      this.box[6 * auv + side] = answered ? mix(here.box[side][row], to.box[side][other]) : here.box[side][row];
+    }
     this.clock[auv] = here.clock[row];
     this.holds[auv] = (here.flags[row] & (ANSWERED | HOLDS)) === ANSWERED ? 0 : 1;
   }

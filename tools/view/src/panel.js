@@ -118,9 +118,9 @@ export class Charts {
       make('p', {}, summary),
       this.facts,
       ...this.chart('Width of boxes', 'm', (film) => ({ lines: two('width_m', 'width_max_m', 1)(film) }), { log: true }),
-      key(['median', median], ['widest', most]),
+      key(['median', median], ['widest', most, 'dashed']),
       ...this.chart('Width of clock intervals', 'ms', (film) => ({ lines: two('clock_s', 'clock_max_s', 1e3)(film) }), { log: true }),
-      key(['median', median], ['widest', most]),
+      key(['median', median], ['widest', most, 'dashed']),
       ...this.chart('Polarization', '1 when all head the same way', (film) => ({ lines: [{ ...figure('polarization')(film), colour: median }] }), { zero: true }),
       ...this.chart('Least separation', 'm', (film) => ({ lines: [{ ...figure('separation_m')(film), colour: median }] }), { zero: true }),
       make('h3', {}, 'Pings so far', make('small', {}, 'at each receiver')),
@@ -168,7 +168,7 @@ export class Charts {
       ...this.chart('Neighbours it heeds', '', (_, rows) => ({
         lines: [line(rows, ({ neighbours }) => neighbours, { colour: cx })],
       }), { zero: true }),
-      make('h3', {}, 'Pings to it', make('small', {}, 'whole run; out of range are not counted')),
+      make('h3', {}, 'Pings to it', make('small', {}, 'whole run')),
       this.bars,
     ];
   }
@@ -240,9 +240,9 @@ export class Charts {
     fillFacts(this.facts, [
       ['east, north', `${x.toFixed(1)}, ${y.toFixed(1)} m`],
       ['depth', `${(-z).toFixed(1)} m`],
-      ['its box, east \u00d7 north \u00d7 up', `${[0, 2, 4].map((side) => (box[side + 1] - box[side]).toPrecision(3)).join(' \u00d7 ')} m`],
+      ['box', `${[0, 2, 4].map((side) => Number((box[side + 1] - box[side]).toPrecision(3))).join(' \u00d7 ')} m`],
       ['its clock is off by', `${duration(row.offset)}`],
-      ['of which it does not know', duration(clock[1] - clock[0])],
+      ['its clock interval', duration(clock[1] - clock[0])],
       ['truth inside', missed === 0 ? `at all ${track.rows.length.toLocaleString('en')} ticks` : `not at ${missed} of ${track.rows.length} ticks`, missed === 0 ? 'good' : 'bad'],
     ]);
     fillBars(this.bars, track.fates);

@@ -1,8 +1,8 @@
 // The few geometries that a view is made of. Each is drawn in one call.
 
 import {
-  AdditiveBlending, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry,
-  LineSegments, Mesh, NormalBlending, ShaderMaterial,
+  AdditiveBlending, BufferAttribute, BufferGeometry, DataTexture, DoubleSide, DynamicDrawUsage, FloatType, LineSegments, Mesh,
+  NormalBlending, RGBAFormat, ShaderMaterial,
 } from 'three';
 
 const LINE_VERTEX = `
@@ -90,72 +90,127 @@ export class Segments {
   }
 }
 
+/**
+ * One shape drawn many times in one call: each copy reads where it is from a texture. Instancing proper would do the same, but
+ * without a GPU it costs as much for each copy as a call.
+ */
+class Copies {
+  /** `shape` has points and normals (three numbers a corner) and an index; a copy is eight numbers. */
+  constructor(copies, { points, normals, index }, vertexShader, fragmentShader, options) {
+    const corners = points.length / 3;
+    const all = { position: new Float32Array(3 * corners * copies), normal: new Float32Array(3 * corners * copies) };
+    const of = new Float32Array(corners * copies);
+    const indices = new Uint32Array(index.length * copies);
+    for (let copy = 0; copy < copies; copy++) {
+      all.position.set(points, 3 * corners * copy);
+      all.normal.set(normals, 3 * corners * copy);
+      of.fill(copy, corners * copy, corners * (copy + 1));
+      for (let at = 0; at < index.length; at++) indices[copy * index.length + at] = index[at] + corners * copy;
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(all.position, 3));
+    geometry.setAttribute('normal', new BufferAttribute(all.normal, 3));
+    geometry.setAttribute('copy', new BufferAttribute(of, 1));
+    geometry.setIndex(new BufferAttribute(indices, 1));
+    this.rows = Math.max(1, Math.ceil((2 * copies) / WIDE));
+    this.data = new Float32Array(4 * WIDE * this.rows);
+    this.texture = new DataTexture(this.data, WIDE, this.rows, RGBAFormat, FloatType);
+    this.uniforms = { pixel: { value: 1 }, copies: { value: this.texture }, ...options.uniforms };
+    this.material = new ShaderMaterial({
+      vertexShader: COPY + vertexShader, fragmentShader, uniforms: this.uniforms, transparent: true, side: DoubleSide, ...options.material,
+    });
+    this.object = new Mesh(geometry, this.material);
+    this.object.frustumCulled = false;
+    this.object.renderOrder = options.renderOrder;
+    this.limit = copies;
+    this.each = index.length;
+    this.count = 0;
+  }
+
+  /** Adds a copy: eight numbers, whatever the shader makes of them; the colour as one. */
+  add(a, b, c, d, e, f, red, green, blue, h) {
+    if (this.count >= this.limit) return;
+    const { data } = this;
+    const at = 8 * this.count++;
+    data[at] = a;
+    data[at + 1] = b;
+    data[at + 2] = c;
+    data[at + 3] = d;
+    data[at + 4] = e;
+    data[at + 5] = f;
+    data[at + 6] = red * 65536 + green * 256 + blue;
+    data[at + 7] = h;
+  }
+
+  show() {
+    this.object.geometry.setDrawRange(0, this.count * this.each);
+    this.object.visible = this.count > 0;
+    this.texture.needsUpdate = true;
+  }
+}
+
+const WIDE = 256;
+
+const COPY = `
+  attribute float copy;
+  uniform highp sampler2D copies;
+  vec4 part(int which) {
+    int at = 2 * int(copy) + which;
+    return texelFetch(copies, ivec2(at % 256, at / 256), 0);
+  }
+  vec3 colour(float packed) {
+    return vec3(floor(packed / 65536.0), mod(floor(packed / 256.0), 256.0), mod(packed, 256.0)) / 255.0;
+  }`;
+
 const BODY_VERTEX = `
-  attribute vec4 place;
-  attribute vec2 course;
-  attribute vec4 tint;
   uniform float pixel, least;
-  varying vec4 vTint;
+  varying vec3 vTint;
   varying vec3 vNormal;
   void main() {
+    vec4 place = part(0), more = part(1);
     vec4 centre = viewMatrix * vec4(place.xyz, 1.0);
     float size = max(abs(place.w), least * pixel * -centre.z) * (place.w < 0.0 ? 1.7 : 1.0);
-    float h = course.x, p = course.y;
+    float h = more.x, p = more.y;
     mat3 turn = mat3(cos(h) * cos(p), sin(h) * cos(p), sin(p), -sin(h), cos(h), 0.0, -cos(h) * sin(p), -sin(h) * sin(p), cos(p));
-    vTint = tint;
+    vTint = colour(more.z);
     vNormal = turn * normal;
     gl_Position = projectionMatrix * viewMatrix * vec4(place.xyz + turn * position * size, 1.0);
   }`;
 
 const BODY_FRAGMENT = `
-  varying vec4 vTint;
+  varying vec3 vTint;
   varying vec3 vNormal;
   uniform float shade;
   void main() {
     float light = mix(shade, 1.0, 0.5 + 0.5 * dot(normalize(vNormal), normalize(vec3(0.3, -0.4, 0.87))));
-    gl_FragColor = vec4(vTint.rgb * light, vTint.a);
+    gl_FragColor = vec4(vTint * light, 1.0);
   }`;
 
+const HULL = [[0.5, 0], [0.43, 0.07], [0.28, 0.11], [-0.2, 0.11], [-0.42, 0.045], [-0.5, 0.02]];
+const PLAIN_HULL = [[0.5, 0], [0.25, 0.12], [-0.5, 0.05]];
+
 /** AUVs: hulls that point where they head, never smaller than `least` pixels. */
-export class Bodies {
-  constructor(auvs) {
-    const geometry = new InstancedBufferGeometry();
-    const hull = torpedo();
-    geometry.setAttribute('position', new BufferAttribute(hull.points, 3));
-    geometry.setAttribute('normal', new BufferAttribute(hull.normals, 3));
-    geometry.setIndex(hull.index);
-    const attribute = (size) => new InstancedBufferAttribute(new Float32Array(size * auvs), size).setUsage(DynamicDrawUsage);
-    [this.place, this.course] = [attribute(4), attribute(2)];
-    this.tint = new InstancedBufferAttribute(new Uint8Array(4 * auvs), 4, true).setUsage(DynamicDrawUsage);
-    geometry.setAttribute('place', this.place);
-    geometry.setAttribute('course', this.course);
-    geometry.setAttribute('tint', this.tint);
-    this.uniforms = { pixel: { value: 1 }, least: { value: 11 }, shade: { value: 0.4 } };
-    const material = new ShaderMaterial({
-      vertexShader: BODY_VERTEX, fragmentShader: BODY_FRAGMENT, uniforms: this.uniforms, transparent: true,
-    });
-    this.object = new Mesh(geometry, material);
-    this.object.frustumCulled = false;
-    this.object.renderOrder = 4;
+export class Bodies extends Copies {
+  /** `plain` for so many that nobody sees more than a direction. */
+  constructor(auvs, plain) {
+    const shape = plain ? torpedo(PLAIN_HULL, 4) : torpedo(HULL, 7);
+    super(auvs, shape, BODY_VERTEX, BODY_FRAGMENT, { uniforms: { least: { value: 11 }, shade: { value: 0.4 } }, renderOrder: 4 });
   }
 
-  show(count) {
-    this.object.geometry.instanceCount = count;
-    this.object.visible = count > 0;
-    for (const attribute of [this.place, this.course, this.tint]) attribute.needsUpdate = true;
+  /** `length` is negative for one that stands out. */
+  put(x, y, z, length, heading, pitch, red, green, blue) {
+    this.add(x, y, z, length, heading, pitch, red, green, blue, 0);
   }
 }
 
-/** A hull of length 1 along x: a lathe of a profile, with a fin at the stern. */
-function torpedo() {
-  const profile = [[0.5, 0], [0.43, 0.07], [0.28, 0.11], [-0.2, 0.11], [-0.42, 0.045], [-0.5, 0.02]];
-  const sides = 6;
+/** A hull of length 1 along x: a profile turned around it, with fins at the stern. */
+function torpedo(profile, sides) {
   const [points, normals, index] = [[], [], []];
   profile.forEach(([x, radius], ring) => {
     for (let side = 0; side < sides; side++) {
       const angle = (2 * Math.PI * side) / sides;
       points.push(x, radius * Math.cos(angle), radius * Math.sin(angle));
-      const lean = ring === 0 ? 1 : ring > 3 ? -0.4 : 0.25;
+      const lean = ring === 0 ? 1 : x < -0.3 ? -0.4 : 0.25;
       normals.push(lean, Math.cos(angle), Math.sin(angle));
       if (ring === 0) continue;
       const [a, b] = [(ring - 1) * sides + side, (ring - 1) * sides + ((side + 1) % sides)];
@@ -167,23 +222,22 @@ function torpedo() {
       const first = points.length / 3;
       points.push(-0.34, 0, 0, -0.52, 0.2 * y * sign, 0.2 * z * sign, -0.52, 0, 0);
       for (let corner = 0; corner < 3; corner++) normals.push(0, z, y);
-      index.push(first, first + 1, first + 2, first, first + 2, first + 1);
+      index.push(first, first + 1, first + 2);
     }
   }
-  return { points: new Float32Array(points), normals: new Float32Array(normals), index };
+  return { points, normals, index };
 }
 
 const WAVE_VERTEX = `
-  attribute vec4 place;
-  attribute vec4 tint;
   uniform float pixel;
   varying vec4 vTint;
   varying float vAcross;
   void main() {
+    vec4 place = part(0), more = part(1);
     vec4 centre = viewMatrix * vec4(place.xyz, 1.0);
-    float thick = 2.2 * pixel * -centre.z;
+    float thick = 2.0 * pixel * -centre.z;
     float radius = place.w + (position.z - 0.5) * min(thick, place.w + thick);
-    vTint = tint;
+    vTint = vec4(colour(more.z), more.w);
     vAcross = position.z;
     gl_Position = projectionMatrix * (centre + vec4(position.xy * radius, 0.0, 0.0));
   }`;
@@ -194,51 +248,28 @@ const WAVE_FRAGMENT = `
   void main() { gl_FragColor = vec4(vTint.rgb, vTint.a * (1.0 - abs(2.0 * vAcross - 1.0) * 0.8)); }`;
 
 /** Wavefronts: the outlines of growing spheres. */
-export class Waves {
+export class Waves extends Copies {
   constructor(limit) {
-    this.limit = limit;
-    const sides = 56;
-    const [points, index] = [[], []];
-    for (let side = 0; side < sides; side++) {
-      const angle = (2 * Math.PI * side) / sides;
-      for (let edge = 0; edge < 2; edge++) points.push(Math.cos(angle), Math.sin(angle), edge);
-      const [a, b] = [2 * side, 2 * ((side + 1) % sides)];
-      index.push(a, b, a + 1, a + 1, b, b + 1);
-    }
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
-    geometry.setIndex(index);
-    this.place = new InstancedBufferAttribute(new Float32Array(4 * limit), 4).setUsage(DynamicDrawUsage);
-    this.tint = new InstancedBufferAttribute(new Uint8Array(4 * limit), 4, true).setUsage(DynamicDrawUsage);
-    geometry.setAttribute('place', this.place);
-    geometry.setAttribute('tint', this.tint);
-    this.uniforms = { pixel: { value: 1 } };
-    this.material = new ShaderMaterial({
-      vertexShader: WAVE_VERTEX, fragmentShader: WAVE_FRAGMENT, uniforms: this.uniforms, transparent: true, depthWrite: false,
-    });
-    this.object = new Mesh(geometry, this.material);
-    this.object.frustumCulled = false;
-    this.object.renderOrder = 3;
-    this.count = 0;
+    super(limit, circle(44), WAVE_VERTEX, WAVE_FRAGMENT, { renderOrder: 3, material: { depthWrite: false } });
   }
 
   glow(dark) {
     this.material.blending = dark ? AdditiveBlending : NormalBlending;
   }
 
-  add(x, y, z, radius, r, g, b, a) {
-    if (this.count >= this.limit) return;
-    this.place.array.set([x, y, z, radius], 4 * this.count);
-    this.tint.array.set([r, g, b, a], 4 * this.count);
-    this.count++;
-  }
-
-  show() {
-    this.object.geometry.instanceCount = this.count;
-    this.object.visible = this.count > 0;
-    this.place.needsUpdate = true;
-    this.tint.needsUpdate = true;
+  put(x, y, z, radius, red, green, blue, strength) {
+    this.add(x, y, z, radius, 0, 0, red, green, blue, strength);
   }
 }
 
-export { Color };
+/** A ribbon around the unit circle; z is 0 at its inner edge and 1 at its outer one. */
+function circle(sides) {
+  const [points, index] = [[], []];
+  for (let side = 0; side < sides; side++) {
+    const angle = (2 * Math.PI * side) / sides;
+    for (let edge = 0; edge < 2; edge++) points.push(Math.cos(angle), Math.sin(angle), edge);
+    const [a, b] = [2 * side, 2 * ((side + 1) % sides)];
+    index.push(a, b, a + 1, a + 1, b, b + 1);
+  }
+  return { points, normals: points, index };
+}

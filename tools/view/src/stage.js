@@ -6,16 +6,21 @@ import { links, wavefronts } from './moment.js';
 import { rgb } from './palette.js';
 import { Bodies, Segments, Waves } from './shapes.js';
 
-const LINKS_MAX = 60000;
-const WAVES_MAX = 4096;
-const TUBE_BOXES_MAX = 160;
+const LINKS_MAX = 400000;
+/** So many links are drawn, evenly chosen among more: long lines cost most. Fewer without a GPU. */
+const LINKS_DRAWN_MAX = 24000;
+const LINKS_DRAWN_SOFTWARE = 5000;
+const WAVES_MAX = 2048;
+/** So much of the past of the selected AUV is drawn, in so many boxes. */
+const TUBE_S = 20;
+const TUBE_BOXES = 10;
 
-/** Layers of seed 001, figure 6.4: (a) positions, (b) links, (c) boxes, (d) pings. */
+/** Seed 001, figure 6.4: (a) positions, (b) links, (c) boxes, (d) pings; bodies are smaller where they would hide what is shown. */
 export const PANES = [
-  { title: 'True positions', layers: ['bodies'] },
-  { title: 'Links in range', layers: ['bodies', 'links'] },
-  { title: 'Localization boxes', layers: ['bodies', 'boxes'] },
-  { title: 'Ping wavefronts', layers: ['bodies', 'waves'] },
+  { title: 'True positions', layers: ['bodies'], bodies: 1 },
+  { title: 'Links in range', layers: ['bodies', 'links'], bodies: 0.6 },
+  { title: 'Localization boxes', layers: ['bodies', 'boxes'], bodies: 0.4 },
+  { title: 'Ping wavefronts', layers: ['bodies', 'waves'], bodies: 0.5 },
 ];
 
 export class Stage {
@@ -33,10 +38,11 @@ export class Stage {
     this.controls.zoomToCursor = true;
     const auvs = cast.names.length;
     this.pairs = new Uint32Array(2 * LINKS_MAX);
-    this.bodies = new Bodies(auvs);
-    this.bodies.uniforms.least.value = auvs > 2000 ? 6 : auvs > 400 ? 9 : auvs > 60 ? 12 : 17;
-    this.boxes = new Segments(12 * (auvs + TUBE_BOXES_MAX) + 2400, 2);
-    this.links = new Segments(LINKS_MAX, 1);
+    this.bodies = new Bodies(auvs, auvs > 400);
+    this.least = auvs > 2000 ? 6 : auvs > 400 ? 9 : auvs > 60 ? 12 : 17;
+    this.boxes = new Segments(12 * (auvs + 2 * TUBE_BOXES) + 1300, 2);
+    this.linksDrawn = antialias ? LINKS_DRAWN_MAX : LINKS_DRAWN_SOFTWARE;
+    this.links = new Segments(this.linksDrawn + auvs, 1);
     this.waves = new Waves(WAVES_MAX);
     this.frame = new Segments(400, 0);
     this.objects = {
@@ -63,11 +69,34 @@ export class Stage {
   }
 
   home() {
-    const aspect = Math.min(1, this.camera.aspect || 1);
-    const away = new Vector3(-0.52, -0.9, 0.5).normalize().multiplyScalar((1.08 * this.size) / aspect);
-    this.camera.position.copy(this.centre).add(away);
-    this.controls.target.copy(this.centre);
-    this.controls.update();
+    const { clientWidth: width, clientHeight: height } = this.renderer.domElement.parentElement;
+    const { camera, controls, centre } = this;
+    camera.aspect = width / Math.max(1, height);
+    camera.updateProjectionMatrix();
+    const away = new Vector3(-0.5, -1, 0.42).normalize();
+    controls.target.copy(centre);
+    // As near as all corners allow.
+    let [near, far] = [0.3 * this.size, 8 * this.size];
+    for (let step = 0; step < 24; step++) {
+      const middle = (near + far) / 2;
+      camera.position.copy(centre).addScaledVector(away, middle);
+      camera.lookAt(centre);
+      camera.updateMatrixWorld();
+      if (this.corners().every((corner) => this.isInside(corner))) far = middle;
+      else near = middle;
+    }
+    camera.position.copy(centre).addScaledVector(away, far);
+    controls.update();
+  }
+
+  corners() {
+    const [x, y, z] = this.region;
+    return x.flatMap((i) => y.flatMap((j) => z.map((k) => new Vector3(i, j, k))));
+  }
+
+  isInside(place) {
+    const { x, y, z } = place.project(this.camera);
+    return Math.abs(x) < 0.94 && Math.abs(y) < 0.92 && z < 1;
   }
 
   /** Looks at one AUV from near by. */
@@ -120,41 +149,36 @@ export class Stage {
     const { visible, selected, layers, glow, track } = view;
     const dimmed = selected >= 0 && cast.names.length > 8;
     this.boxes.clear();
-    let count = 0;
+    this.bodies.count = 0;
     let boxed = 0;
     for (let auv = 0; auv < moment.auvs; auv++) {
       if (!shown[auv] || !visible[auv]) continue;
       const [r, g, b] = colours[cast.groupOf[auv]];
       const own = auv === selected;
-      this.bodies.place.array.set(
-        [position[3 * auv], position[3 * auv + 1], position[3 * auv + 2], own ? -cast.length[auv] : cast.length[auv]], 4 * count,
-      );
-      this.bodies.course.array[2 * count] = heading[auv];
-      this.bodies.course.array[2 * count + 1] = pitch[auv];
-      this.bodies.tint.array.set([r, g, b, 255], 4 * count);
-      count++;
+      const length = own ? -cast.length[auv] : cast.length[auv];
+      this.bodies.put(position[3 * auv], position[3 * auv + 1], position[3 * auv + 2], length, heading[auv], pitch[auv], r, g, b);
       if (!layers.boxes && !own) continue;
       if (Number.isNaN(box[6 * auv])) continue;
       boxed++;
       if (moment.holds[auv]) this.boxes.box(box, 6 * auv, r, g, b, own ? 255 : dimmed ? 90 : this.dark ? 165 : 185);
       else this.boxes.box(box, 6 * auv, 255, 40, 90, 255);
     }
-    this.bodies.show(count);
+    this.bodies.show();
     if (track) this.addTube(track, moment, colours[cast.groupOf[track.auv]]);
     this.boxes.show();
     this.fillLinks(moment, film, view);
-    this.waves.clear?.();
     this.waves.count = 0;
     if (layers.waves) {
+      const crowd = Math.min(1, Math.max(0.25, 110 / Math.max(1, this.counts.waves)));
       wavefronts(film, moment.t, cast, glow, (x, y, z, radius, from, strength) => {
         if (!visible[from]) return;
         const [r, g, b] = colours[cast.groupOf[from]];
-        const alpha = (from === selected ? 1 : dimmed ? 0.45 : this.dark ? 0.85 : 0.8) * strength;
-        this.waves.add(x, y, z, radius, r, g, b, Math.round(255 * alpha));
+        const alpha = from === selected ? strength : strength * crowd * (dimmed ? 0.5 : this.dark ? 0.9 : 0.8);
+        this.waves.put(x, y, z, radius, r, g, b, alpha);
       });
     }
     this.waves.show();
-    Object.assign(this.counts, { bodies: count, boxes: boxed, waves: this.waves.count });
+    Object.assign(this.counts, { bodies: this.bodies.count, boxes: boxed, waves: this.waves.count });
     this.layers = layers;
   }
 
@@ -169,19 +193,21 @@ export class Stage {
         linked.version = version;
       }
       const there = Math.min(linked.found, LINKS_MAX);
+      const stride = Math.max(1, Math.ceil(there / this.linksDrawn));
       const [r, g, b] = this.line;
-      const strength = Math.max(this.dark ? 14 : 18, Math.min(150, 60000 / Math.max(1, there)));
       const one = this.colours[this.cast.groupOf[selected]];
+      const alpha = Math.max(this.dark ? 16 : 22, Math.min(150, 60000 / Math.max(1, there / stride))) * (one ? 0.5 : 1);
       const { position } = moment;
+      const add = (from, to, red, green, blue, strength) => {
+        const [i, j] = [3 * from, 3 * to];
+        lines.add(position[i], position[i + 1], position[i + 2], position[j], position[j + 1], position[j + 2], red, green, blue, strength);
+      };
       for (let pair = 0; pair < there; pair++) {
         const [from, to] = [pairs[2 * pair], pairs[2 * pair + 1]];
-        const own = from === selected || to === selected;
-        const [i, j] = [3 * from, 3 * to];
-        const [red, green, blue, alpha] = own ? [...one, 230] : [r, g, b, one ? strength * 0.5 : strength];
-        lines.add(
-          position[i], position[i + 1], position[i + 2], position[j], position[j + 1], position[j + 2], red, green, blue, alpha,
-        );
+        if (from === selected || to === selected) add(from, to, one[0], one[1], one[2], 230);
+        else if (pair % stride === 0) add(from, to, r, g, b, alpha);
       }
+      this.counts.linksDrawn = stride;
       this.counts.links = linked.found;
     } else {
       this.counts.links = 0;
@@ -190,18 +216,20 @@ export class Stage {
     lines.show();
   }
 
-  /** What the selected AUV has known of its way so far, and its true way. */
+  /** What the selected AUV knew of its way lately, and its true way; the older the fainter. */
   addTube(track, { t }, [r, g, b]) {
+    const age = (row) => (t - track.rows[row].t) / TUBE_S;
     const last = track.at(t);
-    const step = Math.max(1, Math.ceil((last + 1) / TUBE_BOXES_MAX));
-    for (let row = last - (last % step); row >= 0; row -= step) {
-      this.boxes.box(track.rows[row].box, 0, r, g, b, this.dark ? 46 : 64);
+    const first = track.at(t - TUBE_S) + 1;
+    const step = Math.max(1, Math.ceil((last - first) / TUBE_BOXES));
+    for (let row = last - (last % step); row >= first; row -= step) {
+      this.boxes.box(track.rows[row].box, 0, r, g, b, (this.dark ? 120 : 150) * (1 - age(row)));
     }
-    const stride = Math.max(1, Math.ceil((last + 1) / 2000));
-    const [lr, lg, lb] = this.dark ? [255, 255, 255] : [10, 20, 30];
-    for (let row = last - (last % stride); row >= stride; row -= stride) {
+    const stride = Math.max(1, Math.ceil((last - first) / 600));
+    const [red, green, blue] = this.dark ? [255, 255, 255] : [10, 20, 30];
+    for (let row = last - (last % stride); row >= Math.max(first, stride); row -= stride) {
       const [one, other] = [track.rows[row - stride].position, track.rows[row].position];
-      this.boxes.add(...one, ...other, lr, lg, lb, 220);
+      this.boxes.add(...one, ...other, red, green, blue, 230 * (1 - age(row)));
     }
   }
 
@@ -224,6 +252,7 @@ export class Stage {
     const lit = Object.fromEntries(Object.entries(objects).map(([name, object]) => [name, object.visible]));
     for (const [index, pane] of (panes ? PANES : [{ layers: null }]).entries()) {
       const [left, top] = panes ? [(index % 2) * across, Math.floor(index / 2) * down] : [0, 0];
+      this.bodies.uniforms.least.value = this.least * pane.bodies;
       renderer.setViewport(left, height - top - down, across, down);
       renderer.setScissor(left, height - top - down, across, down);
       for (const [name, object] of Object.entries(objects)) {

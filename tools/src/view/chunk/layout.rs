@@ -97,7 +97,8 @@ fn scene(second: u32, open: &Open, before: &[Option<Sample>], receptions: bool) 
             bytes.floats(rows.iter().map(|row| of(row, |belief| belief.position_m[axis][end])));
         }
     }
-    bytes.floats(rows.iter().map(|row| of(row, |belief| belief.clock_offset_s[1] - belief.clock_offset_s[0])));
+    bytes
+        .floats(rows.iter().map(|row| of(row, |belief| belief.clock_offset_s[1] - belief.clock_offset_s[0])));
     bytes.words(rows.iter().map(|row| flags(row)));
     bytes.floats(open.emissions.iter().map(|emission| since(emission.t_ns)));
     for axis in 0..3 {
@@ -140,10 +141,13 @@ fn tracks(open: &Open) -> Vec<u8> {
 fn figures(second: u32, open: &Open, before: &[Option<Sample>]) -> String {
     let samples = open.samples.iter().zip(before);
     let last: Vec<&Belief> = samples
-        .filter_map(|(samples, before)| samples.last().or(before.as_ref())?.belief.as_ref())
+        .filter_map(|(samples, before)| {
+            before.iter().chain(samples).rev().find_map(|row| row.belief.as_ref())
+        })
         .collect();
     let [width_m, width_max_m] = median_and_most(last.iter().map(|belief| belief.width_m()).collect());
-    let clock_widths = last.iter().map(|belief| belief.clock_offset_s[1] - belief.clock_offset_s[0]).collect();
+    let clock_widths =
+        last.iter().map(|belief| belief.clock_offset_s[1] - belief.clock_offset_s[0]).collect();
     let [clock_s, clock_max_s] = median_and_most(clock_widths);
     let misses = open.samples.iter().flatten().filter_map(|row| row.belief.as_ref());
     let misses = misses.filter(|belief| !belief.holds).count();
