@@ -24,7 +24,7 @@ pub mod run_dir;
 #[cfg(feature = "iceoryx2")]
 pub mod shared_memory;
 pub mod summary;
-#[cfg(feature = "iceoryx2")]
+#[cfg(all(feature = "iceoryx2", feature = "record"))]
 pub mod tap;
 pub mod time;
 pub mod traffic;

@@ -141,7 +141,8 @@ impl RunDir {
             .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidData, "the owner's file is damaged"))
     }
 
-    fn write_atomically(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+    /// Writes the file `name` in the folder; a reader sees all of it or none.
+    pub(crate) fn write_atomically(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let draft = self.path.join(format!(".{name}.{}", std::process::id()));
         let mut file =
             fs::OpenOptions::new().write(true).create(true).truncate(true).mode(0o600).open(&draft)?;

@@ -75,6 +75,23 @@ pub struct Summary {
     pub free_run: Option<FreeRun>,
 }
 
+impl Summary {
+    /// Itself without the facts of the machine: what a record holds.
+    #[must_use]
+    pub fn simulated(&self) -> Self {
+        Self {
+            bus: None,
+            processes: None,
+            wall_s: None,
+            startup_s: None,
+            real_time_factor: None,
+            memory: None,
+            timings: None,
+            ..self.clone()
+        }
+    }
+}
+
 /// The proof.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Containment {

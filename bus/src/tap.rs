@@ -1,28 +1,39 @@
-//! The tap: what crosses the water, for observers outside the run, whatever bus its AUVs use.
+//! The tap: what happens in a live run, for observers outside of it, whatever bus its AUVs use.
 //!
-//! A tap never slows a run: a slow one misses batches, and knows how many events were in them.
+//! Each [`LiveTopic`] has an iceoryx2 service of its own, and is encoded while somebody listens to it only; one more service
+//! marks where windows begin and end, and tells how many rows each topic has had. Who takes part, [`Cast`], is told when the first
+//! observer comes. An observer makes of it the same [`Row`]s that a record has.
+//!
+//! A tap never slows a run: a slow one misses rows, and knows how many.
 
-use std::fmt::Display;
-use std::time::{Duration, Instant};
+mod publish;
+mod subscribe;
+mod topics;
+mod wire;
+
+use std::time::{Duration, SystemTime};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::codec;
-use crate::iceoryx::{self, Bytes, BytesPublisher, BytesSubscriber, Limits};
-use crate::os::keep_descriptors_from_children;
-use crate::run_dir::RunDir;
-use crate::traffic::Traffic;
+use crate::codec::CodecError;
+use crate::message::Born;
+use crate::record::{RecordHeader, Row, Topic};
+use crate::summary::Summary;
+use crate::time::SimTime;
 
-const SERVICE: &str = "tap";
+pub use publish::TapPublisher;
+pub use subscribe::TapSubscriber;
+pub use topics::LiveTopic;
 
 /// Observers that one run can have at the same time. Those that were killed leave when the next one comes.
 pub const TAPS_MAX: usize = 16;
 
-/// Batches that a tap may lag behind before it misses some.
-pub const LAG_MAX: usize = 256;
+/// Samples of one topic that a tap may lag behind before it misses rows.
+pub const LAG_MAX: usize = 512;
 
-const EXPECTED_BATCH_BYTES: usize = 4096;
+/// Rows of a topic are published in samples of about this size, so that what a slow tap holds back is bounded.
+pub const SAMPLE_BYTES: usize = 32 << 10;
 
 /// How often a waiting tap looks.
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
@@ -33,160 +44,75 @@ const FAREWELL: Duration = Duration::from_millis(250);
 /// Why a tap cannot be published or read.
 #[derive(Debug, Error)]
 pub enum TapError {
-    /// The service cannot be created or opened.
+    /// The services cannot be created or opened.
     #[error("the tap could not be set up: {0}")]
     Setup(String),
     /// iceoryx2 failed.
     #[error("the tap failed: {0}")]
     Failed(String),
     /// What was published cannot be read.
-    #[error("a batch of the tap could not be read: {0}")]
-    Codec(#[from] codec::CodecError),
+    #[error("a message of the tap could not be read: {0}")]
+    Codec(#[from] CodecError),
+    /// Who takes part cannot be told or read.
+    #[error("who takes part in the run could not be told: {0}")]
+    Cast(#[source] std::io::Error),
+    /// A live run does not publish this.
+    #[error("{} is in records only: it is made after a run", .0.name())]
+    NotLive(Topic),
 }
 
-/// The traffic of one window.
+/// Who takes part in a run: what stands at the beginning of its record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TapBatch {
-    /// Counts batches from 0; those that nobody was there to read count as well.
-    pub sequence: u64,
-    /// Index in the run of the first event.
-    pub first: u64,
-    /// The events.
-    pub traffic: Vec<Traffic>,
+pub struct Cast {
+    /// Scenario, seed and AUVs.
+    pub header: RecordHeader,
+    /// What every AUV was told at birth.
+    pub born: Vec<Born>,
+}
+
+/// How many rows each topic has had since the run began.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts([u64; LiveTopic::ALL.len()]);
+
+impl Counts {
+    /// Those of one topic.
+    pub fn of(&self, topic: LiveTopic) -> u64 {
+        self.0.get(topic as usize).copied().unwrap_or_default()
+    }
+
+    fn add(&mut self, topic: LiveTopic, rows: u64) {
+        if let Some(count) = self.0.get_mut(topic as usize) {
+            *count += rows;
+        }
+    }
 }
 
 /// What a tap sees.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum TapItem {
-    /// The traffic of one window.
-    Batch(TapBatch),
+    /// One window, or several when the tap was slow.
+    Window(TapWindow),
     /// The run is over.
     End {
-        /// Events in the whole run.
-        events: u64,
+        /// Rows of the whole run.
+        counts: Counts,
+        /// The outcome, without facts of the machine; absent when the run could not tell it.
+        summary: Option<Box<Summary>>,
     },
 }
 
-#[derive(Serialize)]
-enum TapItemRef<'a> {
-    Batch(TapBatchRef<'a>),
-    End { events: u64 },
+/// What happened in one window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TapWindow {
+    /// All that happened before this has been told.
+    pub to: SimTime,
+    /// Rows since the run's beginning, also of topics that this tap does not listen to.
+    pub counts: Counts,
+    /// When it was published, by the wall clock of this host.
+    pub published: SystemTime,
+    /// The rows of the topics listened to, sorted by time.
+    pub rows: Vec<Row>,
 }
 
-#[derive(Serialize)]
-struct TapBatchRef<'a> {
-    sequence: u64,
-    first: u64,
-    traffic: &'a [Traffic],
-}
-
-/// The run's end of the tap.
-pub struct TapPublisher {
-    publisher: BytesPublisher,
-    service: Bytes,
-    batches: u64,
-    events: u64,
-}
-
-impl TapPublisher {
-    /// Makes the tap of `run`.
-    pub fn create(run: &RunDir) -> Result<Self, TapError> {
-        Self::try_create(run).map_err(TapError::Setup)
-    }
-
-    fn try_create(run: &RunDir) -> Result<Self, String> {
-        let limits = Limits { publishers: 1, subscribers: TAPS_MAX, buffer: LAG_MAX, overflow: true };
-        let service = iceoryx::create(&iceoryx::node(run)?, SERVICE, limits)?;
-        let publisher = iceoryx::publisher(&service, EXPECTED_BATCH_BYTES)?;
-        keep_descriptors_from_children().map_err(|error| format!("descriptors: {error}"))?;
-        Ok(Self { publisher, service, batches: 0, events: 0 })
-    }
-
-    /// Publishes one window's events, if there are any. Costs next to nothing while nobody listens.
-    pub fn publish(&mut self, traffic: &[Traffic]) -> Result<(), TapError> {
-        if traffic.is_empty() {
-            return Ok(());
-        }
-        if self.listeners() > 0 {
-            let batch = TapBatchRef { sequence: self.batches, first: self.events, traffic };
-            self.send(&TapItemRef::Batch(batch))?;
-        }
-        self.batches += 1;
-        self.events += traffic.len() as u64;
-        Ok(())
-    }
-
-    /// Tells the taps that the run is over, and gives those that keep up a moment to read it.
-    pub fn end(self) -> Result<(), TapError> {
-        if self.listeners() > 0 {
-            self.send(&TapItemRef::End { events: self.events })?;
-            let since = Instant::now();
-            while self.listeners() > 0 && since.elapsed() < FAREWELL {
-                std::thread::sleep(LOOK_AGAIN);
-            }
-        }
-        Ok(())
-    }
-
-    /// How many taps are attached.
-    pub fn listeners(&self) -> usize {
-        use iceoryx2::prelude::PortFactory;
-        self.service.dynamic_config().number_of_subscribers()
-    }
-
-    fn send(&self, item: &TapItemRef<'_>) -> Result<(), TapError> {
-        iceoryx::send(&self.publisher, &codec::encode(item)?).map_err(TapError::Failed)?;
-        Ok(())
-    }
-}
-
-/// An observer's end of the tap.
-pub struct TapSubscriber {
-    subscriber: BytesSubscriber,
-    /// Index of the event that comes next; unknown before the first batch.
-    next: Option<u64>,
-    missed: u64,
-}
-
-impl TapSubscriber {
-    /// Attaches to the tap of `run`: sees what is published from now on.
-    pub fn attach(run: &RunDir) -> Result<Self, TapError> {
-        let attached = || iceoryx::subscriber(&iceoryx::open(&iceoryx::node(run)?, SERVICE)?);
-        Ok(Self { subscriber: attached().map_err(TapError::Setup)?, next: None, missed: 0 })
-    }
-
-    /// The next item; `None` when there is none within `timeout`. After the end there are no more.
-    pub fn next(&mut self, timeout: Duration) -> Result<Option<TapItem>, TapError> {
-        let since = Instant::now();
-        loop {
-            if let Some(sample) = self.subscriber.receive().map_err(failed)? {
-                let item = codec::decode(sample.payload())?;
-                self.count(&item);
-                return Ok(Some(item));
-            }
-            let left = timeout.saturating_sub(since.elapsed());
-            if left.is_zero() {
-                return Ok(None);
-            }
-            std::thread::sleep(left.min(LOOK_AGAIN));
-        }
-    }
-
-    /// How many events were missed since it attached.
-    pub fn missed(&self) -> u64 {
-        self.missed
-    }
-
-    fn count(&mut self, item: &TapItem) {
-        let (first, after) = match item {
-            TapItem::Batch(batch) => (batch.first, batch.first + batch.traffic.len() as u64),
-            TapItem::End { events } => (*events, *events),
-        };
-        self.missed += first.saturating_sub(self.next.unwrap_or(first));
-        self.next = Some(after);
-    }
-}
-
-fn failed(cause: impl Display) -> TapError {
-    TapError::Failed(cause.to_string())
-}
+#[cfg(test)]
+mod tests;

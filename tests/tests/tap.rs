@@ -26,9 +26,9 @@ fn five_events_as_json_and_as_text() {
     assert_eq!(events.len(), 5);
     for event in &events {
         assert_eq!(event["format"], "shoal.ping/1");
-        assert!(event["time_ns"].as_i64().unwrap() > 0);
+        assert!(event["t_ns"].as_i64().unwrap() > 0);
         assert!(event["from"].as_u64().unwrap() < 3 && event["sequence"].is_u64());
-        let fields: &[&str] = match event["event"].as_str().unwrap() {
+        let fields: &[&str] = match event["fate"].as_str().unwrap() {
             "emitted" => &["position_m", "bytes", "box_width_m", "beyond_range"],
             "heard" => &["to", "range_m", "travel_s", "box_width_m"],
             "lost" => &["to", "reason", "range_m"],
@@ -36,7 +36,7 @@ fn five_events_as_json_and_as_text() {
         };
         assert!(fields.iter().all(|field| !event[field].is_null()), "{event}");
     }
-    let times: Vec<i64> = events.iter().map(|event| event["time_ns"].as_i64().unwrap()).collect();
+    let times: Vec<i64> = events.iter().map(|event| event["t_ns"].as_i64().unwrap()).collect();
     assert!(times.is_sorted(), "{times:?}");
 
     let text = among(&[&live], &Command::new("tap --count 5")).succeeded().stdout;
@@ -94,7 +94,7 @@ fn a_waiting_tap_sees_a_run_from_its_beginning_to_its_end() {
     let summary = live.finish().succeeded().json();
     assert_eq!(summary["digest"], reference["digest"]);
     let events = tap.finish().succeeded().json_lines();
-    let told = |kind: &str| events.iter().filter(|event| event["event"] == kind).count() as u64;
+    let told = |kind: &str| events.iter().filter(|event| event["fate"] == kind).count() as u64;
     assert_eq!(told("emitted"), reference["pings"]["emitted"].as_u64().unwrap());
     assert_eq!(told("heard"), reference["pings"]["heard"].as_u64().unwrap());
 }

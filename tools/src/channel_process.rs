@@ -169,7 +169,7 @@ fn carry_out(
     launched: &Launched,
     run: &RunDir,
 ) -> Result<FromChannel, Failure> {
-    let (mut tapped, trouble) = Tapped::create(run);
+    let (mut tapped, trouble) = Tapped::create(run, scenario, &order.text, channel.born());
     trouble.map(FromChannel::Note).iter().for_each(say);
 
     let is_born = match fleet.born(&channel.born()) {
@@ -195,7 +195,7 @@ fn carry_out(
     let simulated = conducted.complete(channel.summary());
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.clone().map(FromChannel::Note).iter().for_each(say);
-    tapped.end();
+    tapped.end(&simulated);
     let is_alive = |seat: &Seat| seat.ids().into_iter().any(|auv| channel.is_alive(auv));
     let alive: Vec<(u32, usize)> = launched
         .seats

@@ -11,17 +11,20 @@ use crate::bench::ScaleArgs;
 use crate::localize::LocalizeArgs;
 use crate::manual::{CompletionsArgs, ManArgs};
 use crate::plot::PlotArgs;
+use crate::record::RecordCommand;
 use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
+use crate::tap::TapArgs;
+use crate::view::ViewArgs;
 
 /// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
 /// sensors, and proves at every step that none of them loses the truth.
 #[derive(Debug, Parser)]
 #[command(name = "shoal", version, max_term_width = 110)]
 #[command(
-    after_help = "Exit codes: 0 good, 1 failed, 2 usage or refused scenario, 3 finished with loss (an AUV died, or the run \
-    or its data are incomplete), 4 an enclosure did not hold the truth."
+    after_help = "Exit codes: 0 good, 1 failed, or what was compared differs, 2 usage or refused scenario, 3 finished with loss (an AUV \
+    died, or the run or its data are incomplete), 4 an enclosure did not hold the truth, 5 a record is damaged."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -52,11 +55,24 @@ pub enum Command {
         With --csv or --runs a sweep that was stopped, however it was, goes on when the same command is given again."
     )]
     Sweep(SweepArgs),
-    /// Watch the pings of a live run on this host
+    /// Watch a live run on this host, or read a record the same way
     #[command(
-        after_help = "Examples:\n  shoal tap --wait 10\n  shoal tap --json --count 100\n  shoal tap --run 1f00cafe"
+        args_conflicts_with_subcommands = false,
+        after_help = "Without a verb it prints pings. `shoal tap help VERB` tells more about a verb.\n\nExamples:\n  shoal tap --wait 10\n  \
+        shoal tap --lost=noise,collision --filter 'range_m < 200'\n  shoal tap --run swarm-300 list\n  \
+        shoal tap echo /reports --filter 'auv == 7' --field t_s,neighbours\n  shoal tap hz /pings --once\n  shoal tap top --sort box\n  \
+        shoal tap -w part.mcap --duration 10\n  shoal tap -r part.mcap --from 3 --to 4 --csv > pings.csv\n\n\
+        Filters: FIELD == VALUE, != < <= > >=, FIELD in (A, B), FIELD ~ TEXT, FIELD alone; and, or, not, ( ). A field is the dotted \
+        path of a value in a message's JSON, as `shoal tap info TOPIC` lists them: `reception.sinr_db < 10 and not reason == noise`."
     )]
     Tap(TapArgs),
+    /// Show a record or a live run in the browser: positions, links, boxes and wavefronts, and what each AUV knows
+    #[command(
+        after_help = "Examples:\n  shoal run swarm-1000 --record flock.mcap\n  shoal view flock.mcap\n  \
+        shoal view --live --wait 60   (and in another shell: shoal run swarm-300 --pace 1)\n  shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
+        a secret, and a remote shell is told the `ssh -L` line that leads to it. Press ? on the page for its keys."
+    )]
+    View(ViewArgs),
     /// Find out where AUVs were, after the run: all trajectories of a record together, or one vehicle from files
     #[command(
         after_help = "From a record it writes a copy that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\
@@ -151,19 +167,6 @@ pub enum BenchCommand {
         shoal bench scale --control-period-s 1"
     )]
     Scale(ScaleArgs),
-}
-
-#[derive(Debug, Subcommand)]
-pub enum RecordCommand {
-    /// What a record holds; verifies every checksum
-    #[command(after_help = "Example:\n  shoal record info flock.mcap")]
-    Info {
-        /// The record
-        file: PathBuf,
-        /// One JSON line
-        #[arg(long)]
-        json: bool,
-    },
 }
 
 #[derive(Debug, Args)]
@@ -309,22 +312,6 @@ pub struct SweepArgs {
     /// No progress bar
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub struct TapArgs {
-    /// Id of the run, when several are live
-    #[arg(long)]
-    pub run: Option<String>,
-    /// One JSON line per event
-    #[arg(long)]
-    pub json: bool,
-    /// End after so many events
-    #[arg(long, value_name = "N")]
-    pub count: Option<u64>,
-    /// Wait so many seconds for a run to begin
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub wait: f64,
 }
 
 #[derive(Debug, Args)]

@@ -16,6 +16,11 @@ use crate::stopwatch::Stopwatch;
 pub trait Observer {
     /// All that happened before `to` and was not yet told, in order.
     fn window(&mut self, to: SimTime, entries: &[Entry]);
+
+    /// Whether it wants to be told how the swarm holds together, from now on.
+    fn watches_flock(&self) -> bool {
+        false
+    }
 }
 
 /// How to drive.
@@ -129,6 +134,9 @@ pub fn revive(channel: &mut Channel, fleet: &mut dyn Fleet) -> Result<bool, Fail
 /// Tells the observers what happened in the window last accepted.
 pub fn tell(channel: &mut Channel, observers: &mut [&mut dyn Observer]) -> Result<(), Failure> {
     let to = channel.accepted();
+    if observers.iter().any(|observer| observer.watches_flock()) {
+        channel.watch_flock();
+    }
     let entries = channel.chronicle().map_err(Failure::failed)?;
     for observer in observers.iter_mut() {
         observer.window(to, entries);

@@ -13,6 +13,7 @@ mod drive;
 mod exit;
 mod failure;
 mod figure;
+mod filter;
 mod free_run;
 mod host;
 mod hosts_fleet;
@@ -27,7 +28,7 @@ mod plot;
 mod processes;
 mod processor;
 mod progress;
-mod record_info;
+mod record;
 mod report;
 mod run;
 mod scenario_order;
@@ -37,14 +38,16 @@ mod set;
 mod stopwatch;
 mod summary_text;
 mod sweep;
+mod table;
 mod tap;
 mod terminal;
 mod timings_text;
+mod view;
 
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{BenchCommand, Cli, Command, RecordCommand};
+use cli::{BenchCommand, Cli, Command};
 use exit::Exit;
 use failure::{Failure, While};
 use shoal_bus::run_dir::RunDir;
@@ -68,9 +71,10 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Report(args) => report::report(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
+        Command::View(args) => view::view(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
-        Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Record { command } => record::run(command),
         Command::Schema => manual::schema(),
         Command::Completions(args) => manual::completions(args),
         Command::Man(args) => manual::man(args),

@@ -5,14 +5,13 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use shoal_bus::chronicle::{Entry, What};
+use shoal_bus::chronicle::Entry;
 use shoal_bus::message::Born;
 use shoal_bus::record::{RecordHeader, RecordWriter, RecordedAuv};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::summary::Summary;
-use shoal_bus::tap::TapPublisher;
+use shoal_bus::tap::{Cast, LiveTopic, TapPublisher};
 use shoal_bus::time::SimTime;
-use shoal_bus::traffic::Traffic;
 use shoal_scenario::Scenario;
 
 use crate::drive::Observer;
@@ -33,14 +32,8 @@ impl Recorder {
         };
         let file =
             File::create(path).map_err(|error| wrong(&format!("the record cannot be created: {error}")))?;
-        let header = RecordHeader {
-            scenario_name: scenario.name.clone(),
-            seed: scenario.seed,
-            scenario_text: text.to_owned(),
-            auvs: recorded_auvs(scenario),
-        };
-        let mut writer =
-            RecordWriter::create(BufWriter::new(file), &header).map_err(|error| wrong(&error))?;
+        let mut writer = RecordWriter::create(BufWriter::new(file), &header(scenario, text))
+            .map_err(|error| wrong(&error))?;
         writer.born(born).map_err(|error| wrong(&error))?;
         Ok(Self { path: path.to_owned(), writer: Some(writer), failure: None })
     }
@@ -71,6 +64,15 @@ impl Observer for Recorder {
     }
 }
 
+fn header(scenario: &Scenario, text: &str) -> RecordHeader {
+    RecordHeader {
+        scenario_name: scenario.name.clone(),
+        seed: scenario.seed,
+        scenario_text: text.to_owned(),
+        auvs: recorded_auvs(scenario),
+    }
+}
+
 fn recorded_auvs(scenario: &Scenario) -> Vec<RecordedAuv> {
     let of_group = |(index, group): (usize, &shoal_scenario::Group)| {
         let (group_name, length_m) = (group.name.clone(), group.kind.length_m);
@@ -86,42 +88,39 @@ fn recorded_auvs(scenario: &Scenario) -> Vec<RecordedAuv> {
     scenario.groups.iter().enumerate().flat_map(of_group).collect()
 }
 
-/// Publishes the traffic for whoever taps.
+/// Publishes the run for whoever taps.
 pub struct Tapped {
     publisher: Option<TapPublisher>,
-    traffic: Vec<Traffic>,
 }
 
 impl Tapped {
     /// Opens the run for taps. A run whose tap cannot be opened goes on without; the sentence says why.
-    pub fn create(run: &RunDir) -> (Self, Option<String>) {
-        let (publisher, trouble) = match TapPublisher::create(run) {
-            Ok(publisher) => (Some(publisher), None),
-            Err(error) => (None, Some(format!("this run cannot be tapped: {error}"))),
-        };
-        (Self { publisher, traffic: Vec::new() }, trouble)
+    pub fn create(run: &RunDir, scenario: &Scenario, text: &str, born: Vec<Born>) -> (Self, Option<String>) {
+        match TapPublisher::create(run, Cast { header: header(scenario, text), born }) {
+            Ok(publisher) => (Self { publisher: Some(publisher) }, None),
+            Err(error) => (Self { publisher: None }, Some(format!("this run cannot be tapped: {error}"))),
+        }
     }
 
-    /// Tells the taps that the run is over.
-    pub fn end(self) {
+    /// Tells the taps that the run is over, and how it went.
+    pub fn end(self, summary: &Summary) {
         if let Some(publisher) = self.publisher {
             // A tap that is gone does not matter to the run.
-            let _gone = publisher.end();
+            let _gone = publisher.end(Some(summary));
         }
     }
 }
 
 impl Observer for Tapped {
-    fn window(&mut self, _: SimTime, entries: &[Entry]) {
+    fn window(&mut self, to: SimTime, entries: &[Entry]) {
         let Some(publisher) = self.publisher.as_mut() else { return };
-        self.traffic.clear();
-        self.traffic.extend(entries.iter().filter_map(|entry| match &entry.what {
-            What::Traffic(traffic) => Some(traffic.clone()),
-            _ => None,
-        }));
-        if publisher.publish(&self.traffic).is_err() {
+        if publisher.publish(to, entries).is_err() {
             self.publisher = None;
         }
+    }
+
+    fn watches_flock(&self) -> bool {
+        self.publisher.as_ref().is_some_and(|publisher| publisher.is_heard(LiveTopic::Flock))
     }
 }
 

@@ -182,7 +182,7 @@ fn in_this_program(
     let mut fleet = Local::on_all_cores(Auv::new);
     let losses = fleet.born(&channel.born()).map_err(Failure::failed)?;
     channel.stillborn(losses);
-    let (mut tapped, trouble) = Tapped::create(run);
+    let (mut tapped, trouble) = Tapped::create(run, scenario, &order.text, channel.born());
     trouble.iter().for_each(|trouble| bar.note(trouble));
     let startup_s = began.elapsed().as_secs_f64();
     bar.start();
@@ -196,7 +196,7 @@ fn in_this_program(
     let simulated = conducted.complete(channel.summary());
     let incomplete_record = recorder.and_then(|recorder| recorder.finish(&simulated));
     incomplete_record.iter().for_each(|trouble| bar.note(trouble));
-    tapped.end();
+    tapped.end(&simulated);
     let summary = Summary {
         bus: Some(order.bus.name().to_owned()),
         processes: Some(1),

@@ -1,202 +1,90 @@
-//! `shoal tap`: watches the pings of a live run.
+//! `shoal tap`: looks at a live run, or at a record, without touching it.
 
-use std::io::{self, Write};
-use std::time::{Duration, Instant};
+mod args;
+mod capture;
+mod choice;
+mod file;
+mod info;
+mod list;
+mod live;
+mod measure;
+mod print;
+mod source;
+mod stream;
+mod text;
+mod top;
+mod topic;
 
-use serde_json::json;
-use shoal_bus::run_dir::RunDir;
-use shoal_bus::tap::{TapError, TapItem, TapSubscriber};
-use shoal_bus::traffic::{Fate, Reception, Traffic};
+use shoal_bus::record::Topic;
 
-use crate::cli::TapArgs;
+pub use args::TapArgs;
+
 use crate::exit::Exit;
-use crate::failure::{Failure, While};
+use crate::failure::Failure;
+use args::Verb;
+use measure::Measure;
+use source::Source;
 
-/// Prints every event of the tapped run until it ends, or `--count` are printed.
+/// Does what the verb says; without one, prints pings.
 pub fn run(args: &TapArgs) -> Result<Exit, Failure> {
-    let mut tap = attached(args)?;
-    let mut out = io::BufWriter::new(io::stdout().lock());
-    let mut left = args.count.unwrap_or(u64::MAX);
-    while left > 0 {
-        let Some(item) = tap.next(Duration::from_millis(200)).while_doing("listen to the run")? else {
-            if out.flush().is_err() || !tap.run_is_live() {
-                break;
-            }
-            continue;
-        };
-        let TapItem::Batch(batch) = item else { break };
-        for traffic in batch.traffic.iter().take(left.try_into().unwrap_or(usize::MAX)) {
-            let line = if args.json { json_line(traffic) } else { text_line(traffic) };
-            if writeln!(out, "{line}").is_err() {
-                // Whoever read us has gone: so do we.
-                return Ok(Exit::Good);
-            }
-            left -= 1;
+    let is_printing = matches!(&args.verb, None | Some(Verb::Echo(_)));
+    if !is_printing {
+        refuse_printing_options(args)?;
+    }
+    match (&args.verb, &args.form.write) {
+        (None, Some(path)) => capture::capture(args, None, path),
+        (Some(Verb::Echo(of)), Some(path)) => capture::capture(args, Some(topic::by_name(&of.topic)?), path),
+        (None, None) => stream::stream(args, Topic::Pings),
+        (Some(Verb::Echo(of)), None) => stream::stream(args, topic::by_name(&of.topic)?),
+        (Some(Verb::List), _) => list::list(args),
+        (Some(Verb::Info(of)), _) => info::info(args, topic::by_name(&of.topic)?),
+        (Some(Verb::Hz(of)), _) => measure::measure(args, topic::by_name(&of.topic)?, Measure::Rate),
+        (Some(Verb::Bw(of)), _) => measure::measure(args, topic::by_name(&of.topic)?, Measure::Bandwidth),
+        (Some(Verb::Delay(of)), _) => measure::measure(args, topic::by_name(&of.topic)?, Measure::Delay),
+        (Some(Verb::Top(top)), _) => top::top(args, top.sort),
+    }
+}
+
+/// Options that only make sense where messages are printed would otherwise do nothing.
+fn refuse_printing_options(args: &TapArgs) -> Result<(), Failure> {
+    let form = &args.form;
+    let given = [
+        ("--write", form.write.is_some()),
+        ("--csv", form.csv),
+        ("--field", !form.field.is_empty()),
+        ("--filter", args.choice.filter.is_some() && is_whole(args)),
+        ("--kind", !args.choice.kind.is_empty() && is_whole(args)),
+        ("--lost", args.choice.lost.is_some() && is_whole(args)),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => {
+            let sentence =
+                format!("{option} is for messages: use it with `shoal tap` or `shoal tap echo TOPIC`");
+            Err(Failure::usage(sentence))
         }
-        // What has happened is seen at once, however little it is.
-        if out.flush().is_err() {
-            return Ok(Exit::Good);
-        }
-    }
-    let _closed = out.flush();
-    match tap.missed() {
-        0 => Ok(Exit::Good),
-        missed => {
-            eprintln!("warning: this tap was too slow and missed {missed} events");
-            Ok(Exit::Loss)
-        }
+        None => Ok(()),
     }
 }
 
-/// A tap on one run, and the run.
-struct Attached {
-    run: RunDir,
-    tap: TapSubscriber,
+/// Whether the verb is about all messages.
+fn is_whole(args: &TapArgs) -> bool {
+    matches!(args.verb, Some(Verb::List | Verb::Info(_) | Verb::Top(_)))
 }
 
-impl Attached {
-    fn next(&mut self, timeout: Duration) -> Result<Option<TapItem>, TapError> {
-        self.tap.next(timeout)
-    }
-
-    fn missed(&self) -> u64 {
-        self.tap.missed()
-    }
-
-    fn run_is_live(&self) -> bool {
-        self.run.is_live()
-    }
+/// Says what is missing from what was told, and how to exit.
+fn warn(source: &Source) -> Exit {
+    let gaps = source.gaps();
+    gaps.iter().for_each(|gap| eprintln!("warning: {gap}"));
+    if gaps.is_empty() { Exit::Good } else { Exit::Loss }
 }
 
-/// Finds the run and attaches, waiting as long as `--wait` says.
-fn attached(args: &TapArgs) -> Result<Attached, Failure> {
-    let patience = Duration::try_from_secs_f64(args.wait).ok();
-    let deadline = patience.and_then(|patience| Instant::now().checked_add(patience));
-    let wrong = || Failure::usage(format!("--wait {}: give a number of seconds, 0 or more", args.wait));
-    let deadline = deadline.ok_or_else(wrong)?;
-    loop {
-        let attempt = chosen(args).and_then(|run| match TapSubscriber::attach(&run) {
-            Ok(tap) => Ok(Attached { run, tap }),
-            Err(_) => Err(Failure::failed(format!(
-                "run {} is just starting or ending and cannot be tapped; give --wait SECONDS",
-                run.id()
-            ))),
-        });
-        match attempt {
-            Err(failure) if Instant::now() >= deadline || failure.exit == Exit::Usage => return Err(failure),
-            Err(_) => std::thread::sleep(Duration::from_millis(20)),
-            Ok(attached) => return Ok(attached),
-        }
+/// Prints `text` on the standard output. Whoever closed it does not want more: `false`.
+fn say(text: &str) -> Result<bool, Failure> {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(Failure::failed(format!("could not print: {error}"))),
     }
-}
-
-/// The run that `--run` names, or the only one.
-fn chosen(args: &TapArgs) -> Result<RunDir, Failure> {
-    let mut live: Vec<RunDir> = RunDir::list();
-    if let Some(id) = &args.run {
-        let names = list(&live);
-        return live.into_iter().find(|run| run.id() == id).ok_or_else(|| {
-            Failure::failed(format!("no live run has the id `{id}`; live on this host: {names}"))
-        });
-    }
-    match live.len() {
-        0 => Err(Failure::failed(
-            "no run is live on this host; start one with `shoal run`, or give --wait SECONDS",
-        )),
-        1 => Ok(live.swap_remove(0)),
-        _ => Err(Failure::usage(format!("several runs are live, choose one with --run ID: {}", list(&live)))),
-    }
-}
-
-fn list(runs: &[RunDir]) -> String {
-    let name = |run: &RunDir| {
-        let description = run.description().unwrap_or_default();
-        let scenario = description["scenario"].as_str().unwrap_or("?").to_owned();
-        format!("{} ({scenario})", run.id())
-    };
-    if runs.is_empty() { "none".to_owned() } else { runs.iter().map(name).collect::<Vec<_>>().join(", ") }
-}
-
-fn text_line(traffic: &Traffic) -> String {
-    let Traffic { at, from, sequence, fate } = traffic;
-    let at_s = at.as_s();
-    match fate {
-        Fate::Emitted { bytes, box_width_m, beyond_range, .. } => format!(
-            "{at_s:10.3} s  {from:>4} ->  all  emitted  #{sequence}  {bytes} B  box {box_width_m:.1} m  {beyond_range} beyond range"
-        ),
-        Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => format!(
-            "{at_s:10.3} s  {from:>4} -> {to:>4}  heard  {range_m:.1} m  {:.1} ms{}  box {box_width_m:.1} m{}",
-            travel_s * 1e3,
-            reception.map_or(String::new(), |reception| format!("  {}", reception_text(&reception))),
-            if *outlier { "  outlier" } else { "" },
-        ),
-        Fate::Lost { to, reason, range_m, reception, colliding } => {
-            let to = to.map_or("-".to_owned(), |to| to.to_string());
-            let reception =
-                reception.map_or(String::new(), |reception| format!("  {}", reception_text(&reception)));
-            let with = match colliding.as_slice() {
-                [] => String::new(),
-                others => {
-                    let names: Vec<String> = others.iter().map(ToString::to_string).collect();
-                    format!("  with {}", names.join(", "))
-                }
-            };
-            format!(
-                "{at_s:10.3} s  {from:>4} -> {to:>4}  lost   {range_m:.1} m  {}{reception}{with}",
-                reason.name()
-            )
-        }
-    }
-}
-
-/// Received level, SINR and path.
-fn reception_text(reception: &Reception) -> String {
-    let Reception { path, level_db, sinr_db, .. } = reception;
-    format!("{level_db:.0} dB  SINR {sinr_db:.0} dB  {path}")
-}
-
-fn reception_json(reception: &Reception) -> serde_json::Value {
-    let Reception { path, level_db, sinr_db, doppler } = reception;
-    json!({ "path": path.to_string(), "level_db": level_db, "sinr_db": sinr_db, "doppler": doppler })
-}
-
-fn json_line(traffic: &Traffic) -> String {
-    let Traffic { at, from, sequence, fate } = traffic;
-    let mut line = json!({
-        "format": "shoal.ping/1",
-        "time_ns": at.ns(),
-        "from": from,
-        "sequence": sequence,
-    });
-    let facts = match fate {
-        Fate::Emitted { position_m, bytes, box_width_m, beyond_range, packet_s } => json!({
-            "event": "emitted",
-            "position_m": position_m,
-            "bytes": bytes,
-            "box_width_m": box_width_m,
-            "beyond_range": beyond_range,
-            "packet_s": packet_s,
-        }),
-        Fate::Heard { to, range_m, travel_s, box_width_m, reception, outlier } => json!({
-            "event": "heard",
-            "to": to,
-            "range_m": range_m,
-            "travel_s": travel_s,
-            "box_width_m": box_width_m,
-            "reception": reception.as_ref().map(reception_json),
-            "outlier": outlier,
-        }),
-        Fate::Lost { to, reason, range_m, reception, colliding } => json!({
-            "event": "lost",
-            "to": to,
-            "reason": reason.name(),
-            "range_m": range_m,
-            "reception": reception.as_ref().map(reception_json),
-            "colliding": colliding,
-        }),
-    };
-    if let (Some(line), serde_json::Value::Object(facts)) = (line.as_object_mut(), facts) {
-        line.extend(facts);
-    }
-    line.to_string()
 }

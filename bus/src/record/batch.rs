@@ -2,10 +2,9 @@
 
 use serde::Serialize;
 
-use super::foxglove::{Level, Log};
-use super::rows::{FlockRow, OfflineRow, PingRow, ReportRow, TruthRow};
-use super::{BATCH_NS, RecordWriteError, Topic};
-use crate::chronicle::{Truth, Violation};
+use super::rows::{FlockRow, LogRow, OfflineRow, PingRow, ReportRow, TruthRow};
+use super::{BATCH_NS, RecordWriteError, Row, Topic};
+use crate::chronicle::Truth;
 use crate::codec;
 use crate::message::{Acted, AuvId, Sensed};
 use crate::summary::Flock;
@@ -71,36 +70,27 @@ impl Batch {
         self.sensed.push(at, auv, sensed).map_err(|source| RecordWriteError::Encode { auv, source })
     }
 
-    pub(super) fn violation(
-        &mut self,
-        at: SimTime,
-        name: &str,
-        violation: &Violation,
-    ) -> Result<(), RecordWriteError> {
-        let Violation { enclosure, coordinate, margin } = violation;
-        let message = if margin.is_finite() {
-            let (enclosure, coordinate, unit) = (enclosure.name(), coordinate.name(), coordinate.unit());
-            format!(
-                "containment violated: the {enclosure} misses the truth in {coordinate} by {margin} {unit}"
-            )
-        } else {
-            format!("containment violated: the {} is empty or invalid", enclosure.name())
-        };
-        self.log(&Log::new(at, Level::Error, name, message))
-    }
-
-    pub(super) fn ended(&mut self, at: SimTime, name: &str, reason: &str) -> Result<(), RecordWriteError> {
-        self.log(&Log::new(at, Level::Warning, name, format!("the AUV is lost: {reason}")))
-    }
-
     pub(super) fn flock(&mut self, at: SimTime, flock: &Flock) -> Result<(), RecordWriteError> {
         self.flocks.push(serde_json::to_vec(&FlockRow { t_ns: at, flock: *flock })?);
         Ok(())
     }
 
-    fn log(&mut self, log: &Log) -> Result<(), RecordWriteError> {
+    pub(super) fn log(&mut self, log: &LogRow) -> Result<(), RecordWriteError> {
         self.logs.push(serde_json::to_vec(log)?);
         Ok(())
+    }
+
+    /// A row as it was read. Those that follow from others are not written.
+    pub(super) fn row(&mut self, row: &Row) -> Result<(), RecordWriteError> {
+        match row {
+            Row::Truth(row) => self.ticks.push(row),
+            Row::Report(row) => self.reports.push(row),
+            Row::Ping(row) => self.pings.push(row),
+            Row::Sensed { at, auv, sensed } => self.sensed(*at, *auv, sensed),
+            Row::Log(row) => self.log(row),
+            Row::Flock(row) => self.flock(row.t_ns, &row.flock),
+            Row::Header(_) | Row::Poses(_) | Row::Born(_) | Row::Offline(_) | Row::Summary(_) => Ok(()),
+        }
     }
 
     /// Whether any AUV ticked, so that poses have changed.

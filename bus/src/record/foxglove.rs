@@ -1,7 +1,9 @@
 //! The Foxglove messages, so that viewers open a record as it is.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use super::batch::batch_end;
+use super::rows::TruthRow;
 use crate::chronicle::Truth;
 use crate::time::{NS_PER_S, SimTime};
 
@@ -9,27 +11,34 @@ use crate::time::{NS_PER_S, SimTime};
 const FRAME_ID: &str = "water";
 
 /// `foxglove.Time`: never negative.
-#[derive(Clone, Copy, Serialize)]
-struct Time {
-    sec: i64,
-    nsec: i64,
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Time {
+    /// Whole seconds.
+    pub sec: i64,
+    /// Nanoseconds since then.
+    pub nsec: i64,
 }
 
 impl Time {
-    fn new(at: SimTime) -> Self {
+    pub(super) fn new(at: SimTime) -> Self {
         let ns = at.ns().max(0);
         Self { sec: ns / NS_PER_S, nsec: ns % NS_PER_S }
     }
+
+    /// The same as true time.
+    pub fn sim_time(self) -> SimTime {
+        SimTime::from_ns(self.sec.saturating_mul(NS_PER_S).saturating_add(self.nsec))
+    }
 }
 
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Vector3 {
     x: f64,
     y: f64,
     z: f64,
 }
 
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Quaternion {
     x: f64,
     y: f64,
@@ -38,8 +47,8 @@ struct Quaternion {
 }
 
 /// `foxglove.Pose` of a body whose nose is its x axis.
-#[derive(Clone, Copy, Serialize)]
-pub(super) struct Pose {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
     position: Vector3,
     orientation: Quaternion,
 }
@@ -67,41 +76,53 @@ fn round(value: f64, steps: f64) -> f64 {
     (value * steps).round() / steps + 0.0
 }
 
-/// `foxglove.PosesInFrame`.
-#[derive(Serialize)]
-pub(super) struct PosesInFrame {
-    timestamp: Time,
-    frame_id: &'static str,
+/// `foxglove.PosesInFrame`: where all AUVs truly are, for viewers. The message of `/truth`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PosesInFrame {
+    /// When.
+    pub timestamp: Time,
+    frame_id: String,
     poses: Vec<Pose>,
 }
 
 impl PosesInFrame {
     pub(super) fn new(at: SimTime, poses: Vec<Pose>) -> Self {
-        Self { timestamp: Time::new(at), frame_id: FRAME_ID, poses }
+        Self { timestamp: Time::new(at), frame_id: FRAME_ID.to_owned(), poses }
     }
 }
 
-/// `foxglove.LogLevel`, as far as a record needs it.
-#[derive(Clone, Copy)]
-pub(super) enum Level {
-    Warning = 3,
-    Error = 4,
+/// The messages of `/truth`, batch by batch, from the rows of `/ticks`.
+#[derive(Debug, Default)]
+pub(crate) struct PoseBatches {
+    latest: Vec<Option<Pose>>,
+    /// End of the batch in which something has moved.
+    end: Option<SimTime>,
 }
 
-/// `foxglove.Log`.
-#[derive(Serialize)]
-pub(super) struct Log<'a> {
-    timestamp: Time,
-    level: u8,
-    message: String,
-    name: &'a str,
-    file: &'static str,
-    line: u32,
-}
+impl PoseBatches {
+    /// Takes in a row; what it returns is the message of the batch before.
+    pub(crate) fn push(&mut self, truth: &TruthRow) -> Option<PosesInFrame> {
+        let end = batch_end(truth.t_ns);
+        let done = if self.end.is_some_and(|before| before < end) { self.take() } else { None };
+        let index = truth.auv.0 as usize;
+        if self.latest.len() <= index {
+            self.latest.resize(index + 1, None);
+        }
+        if let Some(latest) = self.latest.get_mut(index) {
+            *latest = Some(Pose::new(&truth.truth()));
+        }
+        self.end = Some(end);
+        done
+    }
 
-impl<'a> Log<'a> {
-    pub(super) fn new(at: SimTime, level: Level, name: &'a str, message: String) -> Self {
-        Self { timestamp: Time::new(at), level: level as u8, message, name, file: "", line: 0 }
+    /// Tells that all rows before `to` were taken in; what it returns is the message of a batch that ended before.
+    pub(crate) fn advance(&mut self, to: SimTime) -> Option<PosesInFrame> {
+        if self.end.is_some_and(|end| end < to) { self.take() } else { None }
+    }
+
+    fn take(&mut self) -> Option<PosesInFrame> {
+        let end = self.end.take()?;
+        Some(PosesInFrame::new(end, self.latest.iter().flatten().copied().collect()))
     }
 }
 

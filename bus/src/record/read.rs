@@ -2,14 +2,15 @@
 
 use std::io::{Read, Seek};
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize, Serializer};
 
-use super::rows::{FlockRow, OfflineRow, PingRow, ReportRow, TruthRow};
+use super::rows::{FlockRow, LogRow, OfflineRow, PingRow, PosesInFrame, ReportRow, TruthRow};
 use super::scan::{Ending, Item, Source, scan};
 use super::{Damage, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordReadError, RecordedAuv, Topic};
 use crate::codec;
 use crate::message::{AuvId, Born, Sensed};
+use crate::summary::Summary;
 use crate::time::SimTime;
 
 /// One row of a record.
@@ -38,14 +39,84 @@ pub enum Row {
     Offline(OfflineRow),
     /// How the swarm moves and holds together at one second, from [`Topic::Flock`].
     Flock(FlockRow),
+    /// Where all AUVs are, from [`Topic::Poses`].
+    Poses(PosesInFrame),
+    /// Something to tell people, from [`Topic::Log`].
+    Log(LogRow),
+    /// The outcome, from [`Topic::Summary`].
+    Summary(Box<Summary>),
+}
+
+impl Row {
+    /// The topic that it comes from.
+    pub fn topic(&self) -> Topic {
+        match self {
+            Self::Header(_) => Topic::Auvs,
+            Self::Truth(_) => Topic::Ticks,
+            Self::Report(_) => Topic::Reports,
+            Self::Ping(_) => Topic::Pings,
+            Self::Sensed { .. } => Topic::Sensed,
+            Self::Born(_) => Topic::Born,
+            Self::Offline(_) => Topic::Offline,
+            Self::Flock(_) => Topic::Flock,
+            Self::Poses(_) => Topic::Poses,
+            Self::Log(_) => Topic::Log,
+            Self::Summary(_) => Topic::Summary,
+        }
+    }
+
+    /// When it happened, in true time; zero for what stands at the beginning, and the end of the run for the outcome.
+    pub fn at(&self) -> SimTime {
+        match self {
+            Self::Header(_) | Self::Born(_) => SimTime::ZERO,
+            Self::Truth(row) => row.t_ns,
+            Self::Report(row) => row.t_ns,
+            Self::Ping(row) => row.at(),
+            Self::Sensed { at, .. } => *at,
+            Self::Offline(row) => row.t_ns,
+            Self::Flock(row) => row.t_ns,
+            Self::Poses(row) => row.timestamp.sim_time(),
+            Self::Log(row) => row.timestamp.sim_time(),
+            // No scenario comes near the year 2262.
+            Self::Summary(summary) => SimTime::from_ns((summary.sim_s * 1e9).round() as i64),
+        }
+    }
+}
+
+/// As an element of its message in a record; whole messages where those have no elements. What was told to an AUV, which has a
+/// binary encoding there, has the field names of [`Sensed`] and [`Born`].
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct SensedRow<'a> {
+            t_ns: SimTime,
+            auv: AuvId,
+            #[serde(flatten)]
+            sensed: &'a Sensed,
+        }
+        match self {
+            Self::Header(header) => super::header::Auvs { auvs: &header.auvs }.serialize(serializer),
+            Self::Truth(row) => row.serialize(serializer),
+            Self::Report(row) => row.serialize(serializer),
+            Self::Ping(row) => row.serialize(serializer),
+            Self::Sensed { at, auv, sensed } => {
+                SensedRow { t_ns: *at, auv: *auv, sensed }.serialize(serializer)
+            }
+            Self::Born(row) => row.serialize(serializer),
+            Self::Offline(row) => row.serialize(serializer),
+            Self::Flock(row) => row.serialize(serializer),
+            Self::Poses(row) => row.serialize(serializer),
+            Self::Log(row) => row.serialize(serializer),
+            Self::Summary(row) => row.serialize(serializer),
+        }
+    }
 }
 
 /// Hands the header and the rows of `topics` to `visit`, in the order of the file, and tells how the file ends.
 ///
 /// What was told at birth comes first. Within a batch (100 ms) all ticks come before all reports, all reports before all pings, and
 /// all pings before the flock and what was sensed; each are sorted by time. What was reconstructed after the run comes last.
-/// Messages of topics that are not asked for are not parsed, but their checksums are verified. Topics that
-/// are for viewers and people have no rows.
+/// Messages of topics that are not asked for are not parsed, but their checksums are verified.
 ///
 /// Memory: one chunk and the rows of one message, whatever the length of the file.
 ///
@@ -84,11 +155,10 @@ pub fn read_rows<R: Read + Seek>(
             let topic = Topic::ALL.into_iter().find(|topic| is_of(source, *topic));
             match topic {
                 Some(Topic::Auvs) if !beginning.is_told => {
-                    let Auvs { auvs } = parse(Topic::Auvs, data)?;
-                    visit(Row::Header(beginning.tell(auvs)));
+                    visit(Row::Header(beginning.tell(auvs_of(data)?)));
                     Ok(())
                 }
-                Some(topic) if topics.contains(&topic) => rows(topic, data, visit),
+                Some(topic) if topics.contains(&topic) => rows_of(topic, data, visit),
                 _ => Ok(()),
             }
         }
@@ -133,7 +203,19 @@ fn is_of(source: &Source, topic: Topic) -> bool {
     source.topic == topic.name() && source.schema == topic.schema_name()
 }
 
-fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
+/// Hands the rows of one message of `topic` to `visit`. [`Topic::Auvs`] and the topics for viewers and people have none.
+///
+/// ```
+/// use shoal_bus::record::{Topic, rows_of};
+/// let mut rows = 0;
+/// rows_of(Topic::Pings, br#"{"from_ns":0,"to_ns":100000000,"pings":[]}"#, &mut |_| rows += 1)?;
+/// assert_eq!(rows, 0);
+/// # Ok::<(), shoal_bus::record::Damage>(())
+/// ```
+///
+/// # Errors
+/// When the message is not one that the topic's schema describes.
+pub fn rows_of(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
     match topic {
         Topic::Ticks => parse::<Ticks>(topic, data)?.ticks.into_iter().map(Row::Truth).for_each(visit),
         Topic::Reports => parse::<Reports>(topic, data)?
@@ -154,7 +236,10 @@ fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Dam
             parse::<Offline>(topic, data)?.offline.into_iter().map(Row::Offline).for_each(visit);
         }
         Topic::Flock => visit(Row::Flock(parse(topic, data)?)),
-        Topic::Auvs | Topic::Poses | Topic::Log | Topic::Summary => {}
+        Topic::Poses => visit(Row::Poses(parse(topic, data)?)),
+        Topic::Log => visit(Row::Log(parse(topic, data)?)),
+        Topic::Summary => visit(Row::Summary(parse(topic, data)?)),
+        Topic::Auvs => {}
     }
     Ok(())
 }
@@ -165,6 +250,14 @@ fn parse<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
 
 fn decode<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
     codec::decode(data).map_err(|source| Damage::Message { topic: topic.name(), source })
+}
+
+/// The AUVs that a message of [`Topic::Auvs`] names.
+///
+/// # Errors
+/// When the message is not one that the topic's schema describes.
+pub fn auvs_of(data: &[u8]) -> Result<Vec<RecordedAuv>, Damage> {
+    Ok(parse::<Auvs>(Topic::Auvs, data)?.auvs)
 }
 
 #[derive(Deserialize)]

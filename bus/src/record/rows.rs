@@ -4,7 +4,8 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::chronicle::Truth;
+pub use super::foxglove::{Pose, PosesInFrame, Time};
+use crate::chronicle::{Truth, Violation};
 use crate::message::{Acted, AuvId, Bounds, BoundsBox, Culprit, Emptied};
 use crate::summary::Flock;
 use crate::time::{LocalTime, SimTime};
@@ -63,6 +64,18 @@ pub struct TruthRow {
 }
 
 impl TruthRow {
+    /// The truth that it tells.
+    pub(crate) fn truth(&self) -> Truth {
+        Truth {
+            tick: self.tick,
+            local: self.local_ns,
+            position_m: self.position_m.map(|Real(metres)| metres),
+            velocity_m_s: self.velocity_m_s.map(|Real(m_s)| m_s),
+            heading_rad: self.heading_rad.0,
+            pitch_rad: self.pitch_rad.0,
+        }
+    }
+
     /// The row of `truth` about `auv` at `t_ns`.
     pub fn new(t_ns: SimTime, auv: AuvId, truth: &Truth) -> Self {
         Self {
@@ -187,6 +200,49 @@ pub struct FlockRow {
     /// The figures; its least separation is that since the row before.
     #[serde(flatten)]
     pub flock: Flock,
+}
+
+/// Something to tell people: the message of `/log`, `foxglove.Log`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LogRow {
+    /// When, in true time.
+    pub timestamp: Time,
+    /// 3 for a warning, 4 for an error.
+    pub level: u8,
+    /// What.
+    pub message: String,
+    /// Display name of the AUV that it is about.
+    pub name: String,
+    file: String,
+    line: u32,
+}
+
+const WARNING: u8 = 3;
+const ERROR: u8 = 4;
+
+impl LogRow {
+    /// An enclosure of the AUV called `name` did not hold the truth.
+    pub(crate) fn violation(at: SimTime, name: impl Into<String>, violation: &Violation) -> Self {
+        let Violation { enclosure, coordinate, margin } = violation;
+        let message = if margin.is_finite() {
+            let (enclosure, coordinate, unit) = (enclosure.name(), coordinate.name(), coordinate.unit());
+            format!(
+                "containment violated: the {enclosure} misses the truth in {coordinate} by {margin} {unit}"
+            )
+        } else {
+            format!("containment violated: the {} is empty or invalid", enclosure.name())
+        };
+        Self::new(at, ERROR, name.into(), message)
+    }
+
+    /// The AUV called `name` is lost.
+    pub(crate) fn ended(at: SimTime, name: impl Into<String>, reason: &str) -> Self {
+        Self::new(at, WARNING, name.into(), format!("the AUV is lost: {reason}"))
+    }
+
+    fn new(at: SimTime, level: u8, name: String, message: String) -> Self {
+        Self { timestamp: Time::new(at), level, message, name, file: String::new(), line: 0 }
+    }
 }
 
 /// A neighbour as it is seen from an AUV.
@@ -357,6 +413,13 @@ impl ReceptionRow {
 }
 
 impl PingRow {
+    /// True time of the event.
+    pub fn at(&self) -> SimTime {
+        match self {
+            Self::Emitted { t_ns, .. } | Self::Heard { t_ns, .. } | Self::Lost { t_ns, .. } => *t_ns,
+        }
+    }
+
     /// The row of `traffic`.
     pub fn new(traffic: &Traffic) -> Self {
         let Traffic { at: t_ns, from, sequence, ref fate } = *traffic;

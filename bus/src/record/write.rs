@@ -15,7 +15,8 @@ pub use append::{AppendError, append_offline};
 use super::batch::{Batch, batch_end};
 use super::foxglove::{Pose, PosesInFrame};
 use super::header::Auvs;
-use super::{METADATA_OUTCOME, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordWriteError, Topic};
+use super::rows::LogRow;
+use super::{METADATA_OUTCOME, METADATA_RUN, RECORD_FORMAT, RecordHeader, RecordWriteError, Row, Topic};
 use crate::chronicle::{Entry, Truth, What};
 use crate::codec;
 use crate::message::{AuvId, Born};
@@ -66,15 +67,7 @@ impl<W: Write> RecordWriter<W> {
     /// # Errors
     /// When `writer` does not take the bytes.
     pub fn create(writer: W, header: &RecordHeader) -> Result<Self, RecordWriteError> {
-        let options = WriteOptions::new()
-            .library("shoal")
-            .compression(Some(Compression::Zstd))
-            .compression_level(ZSTD_LEVEL)
-            .compression_threads(0)
-            .chunk_size(Some(CHUNK_LIMIT_BYTES))
-            // A chunk is built in memory and written at once: a file that is cut ends with a whole chunk or a piece of one.
-            .disable_seeking(true);
-        let mut mcap = options.create(NoSeek::new(writer))?;
+        let mut mcap = options(Some(CHUNK_LIMIT_BYTES)).create(NoSeek::new(writer))?;
         mcap.write_metadata(&metadata(
             METADATA_RUN,
             [
@@ -130,6 +123,39 @@ impl<W: Write> RecordWriter<W> {
         entries.iter().try_for_each(|entry| self.push(entry))
     }
 
+    /// As [`append`](Self::append), for rows that were read from a record or a live run. Topics that follow from others - header,
+    /// poses, what was told at birth - are left out, as is what is known after the run only.
+    ///
+    /// # Errors
+    /// As [`append`](Self::append).
+    pub fn append_rows(&mut self, rows: &[Row]) -> Result<(), RecordWriteError> {
+        rows.iter().try_for_each(|row| self.push_row(row))
+    }
+
+    fn push_row(&mut self, row: &Row) -> Result<(), RecordWriteError> {
+        let at = row.at();
+        self.batch_at(at)?;
+        if let Row::Truth(row) = row {
+            let auvs = self.latest.len();
+            let unknown = RecordWriteError::UnknownAuv { auv: row.auv, auvs };
+            *self.latest.get_mut(row.auv.0 as usize).ok_or(unknown)? = Some(row.truth());
+        }
+        self.batch_at(at)?.row(row)
+    }
+
+    /// The batch that holds `at`, once those before it are closed.
+    fn batch_at(&mut self, at: SimTime) -> Result<&mut Batch, RecordWriteError> {
+        if at < self.reached {
+            return Err(RecordWriteError::OutOfOrder { at, reached: self.reached });
+        }
+        self.reached = at;
+        let end = batch_end(at);
+        if self.batch.as_ref().is_some_and(|batch| batch.end != end) {
+            self.close_batch()?;
+        }
+        Ok(self.batch.get_or_insert_with(|| Batch::new(end)))
+    }
+
     /// Tells that all entries before `to` have been given; one at `to` itself may still come.
     ///
     /// # Errors
@@ -145,22 +171,25 @@ impl<W: Write> RecordWriter<W> {
         Ok(())
     }
 
+    /// Ends the record of a part of a run, without a summary, and hands back the flushed destination.
+    ///
+    /// # Errors
+    /// When the destination does not take the bytes.
+    pub fn close(mut self) -> Result<W, RecordWriteError> {
+        self.close_batch()?;
+        self.mcap.finish()?;
+        let mut writer = self.mcap.into_inner().into_inner();
+        writer.flush()?;
+        Ok(writer)
+    }
+
     /// Ends the record with `summary`, facts of the machine removed, and hands back the flushed destination.
     ///
     /// # Errors
     /// When the destination does not take the bytes.
     pub fn finish(mut self, summary: &Summary) -> Result<W, RecordWriteError> {
         self.close_batch()?;
-        let stored = Summary {
-            bus: None,
-            processes: None,
-            wall_s: None,
-            startup_s: None,
-            real_time_factor: None,
-            memory: None,
-            timings: None,
-            ..summary.clone()
-        };
+        let stored = summary.simulated();
         self.write(Topic::Summary, self.written, &serde_json::to_vec(&stored)?)?;
         self.mcap.write_metadata(&metadata(
             METADATA_OUTCOME,
@@ -208,8 +237,8 @@ impl<W: Write> RecordWriter<W> {
                 batch.acted(at, auv, local, acted)
             }
             What::Traffic(traffic) => batch.traffic(traffic),
-            What::Violation(violation) => batch.violation(at, name, violation),
-            What::Ended(reason) => batch.ended(at, name, reason),
+            What::Violation(violation) => batch.log(&LogRow::violation(at, name, violation)),
+            What::Ended(reason) => batch.log(&LogRow::ended(at, name, reason)),
             What::Flock(flock) => batch.flock(at, flock),
         }
     }
@@ -245,6 +274,18 @@ impl<W: Write> RecordWriter<W> {
         self.written = at;
         Ok(())
     }
+}
+
+/// How every record is written.
+pub(super) fn options(chunk_limit_bytes: Option<u64>) -> WriteOptions {
+    WriteOptions::new()
+        .library("shoal")
+        .compression(Some(Compression::Zstd))
+        .compression_level(ZSTD_LEVEL)
+        .compression_threads(0)
+        .chunk_size(chunk_limit_bytes)
+        // A chunk is built in memory and written at once: a file that is cut ends with a whole chunk or a piece of one.
+        .disable_seeking(true)
 }
 
 /// End of the simulated second `(k - 1, k]` that holds `at`.

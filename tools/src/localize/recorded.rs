@@ -66,7 +66,7 @@ pub fn read(source: impl Read + Seek) -> Result<Told, String> {
                 recorded.sensed.push(sensed);
             }
         }
-        Row::Ping(_) | Row::Offline(_) | Row::Flock(_) => {}
+        _ => {}
     })
     .map_err(|error| error.to_string())?;
     let header = header.ok_or("the record was cut before anything happened")?;
