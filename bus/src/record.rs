@@ -25,24 +25,33 @@
 
 mod batch;
 mod channels;
+mod chunk;
 mod error;
 mod foxglove;
+mod frames;
 mod header;
 mod info;
+mod layout;
 mod read;
+mod reader;
+mod recover;
 mod render;
 pub mod rows;
 mod scan;
 mod topics;
+mod verify;
 mod write;
 
 pub use error::{Damage, RecordFileError, RecordReadError, RecordWriteError};
 pub(crate) use foxglove::PoseBatches;
 pub use header::{RecordHeader, RecordedAuv};
 pub use info::{Chunks, Containment, RECORD_INFO_FORMAT, RecordInfo, StoredFile, TopicInfo, Truncation};
-pub use read::{Row, read_rows};
+pub use read::{Row, auvs_of, read_rows, rows_of};
+pub use reader::{Found, Message, RecordReader, Wound};
+pub use recover::{RecoverError, Recovery, recover};
 pub use scan::{Ending, Item, RECORD_LIMIT_BYTES, Source, scan};
 pub use topics::{SENSED_ENCODING, Topic};
+pub use verify::{Fault, Flip, Verification, verify};
 pub use write::{AppendError, RecordWriter, append_offline};
 
 /// Version of the layout of records: the `format` of the metadata record `shoal`.
@@ -56,6 +65,9 @@ const METADATA_RUN: &str = "shoal";
 
 /// Name of the metadata record that holds the digest, written last.
 const METADATA_OUTCOME: &str = "shoal.outcome";
+
+/// Name of the metadata record that says what a recovered record has lost.
+const METADATA_RECOVERED: &str = "shoal.recovered";
 
 #[cfg(test)]
 pub(crate) mod tests;

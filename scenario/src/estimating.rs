@@ -7,13 +7,13 @@ use crate::number::Rule;
 use crate::reader::Table;
 
 const NAMES: [&str; 3] = ["tube", "ekf", "dead-reckoning"];
-const RECOVERIES: &[(&str, Recovery)] =
+pub(crate) const RECOVERIES: &[(&str, Recovery)] =
     &[("drop", Recovery::Drop), ("relax", Recovery::Relax), ("restart", Recovery::Restart)];
-const FUSIONS: &[(&str, Fusion)] =
+pub(crate) const FUSIONS: &[(&str, Fusion)] =
     &[("independent", Fusion::Independent), ("covariance-intersection", Fusion::CovarianceIntersection)];
 const HORIZON_DEFAULT_NS: i64 = 10_000_000_000;
 /// More rings cost more than they tell: the older ones have been worn wide by odometry.
-const RINGS_MAX: u64 = 256;
+pub(crate) const RINGS_MAX: u64 = 256;
 
 /// What a group that says nothing estimates with.
 const TUBE: TubeSettings = TubeSettings {

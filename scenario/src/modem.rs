@@ -28,7 +28,7 @@ const PHYSICAL_KEYS: [&str; 9] = [
     "detection_threshold_db",
     "capture_db",
 ];
-const MODULATIONS: &[(&str, Modulation)] = &[("bpsk", Modulation::Bpsk), ("fsk", Modulation::Fsk)];
+pub(crate) const MODULATIONS: &[(&str, Modulation)] = &[("bpsk", Modulation::Bpsk), ("fsk", Modulation::Fsk)];
 /// Sound of more than this would boil the water, and of less than none is none.
 const SOURCE_LEVEL: Rule = Rule::Within(0.0, 260.0);
 /// An error of more than half a turn says nothing of the direction.

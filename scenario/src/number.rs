@@ -31,7 +31,7 @@ pub(crate) struct Placed {
 }
 
 /// No length, speed or error that makes sense is larger, and arithmetic beyond would eat into the error bounds.
-const MAGNITUDE_MAX: f64 = 1e7;
+pub(crate) const MAGNITUDE_MAX: f64 = 1e7;
 
 impl Rule {
     fn broken_by(self, value: f64) -> Option<String> {

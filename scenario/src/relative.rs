@@ -5,13 +5,13 @@ use toml::de::DeValue;
 use crate::model::{Measures, Modem, Relative};
 use crate::reader::Table;
 
-const MEASURES: &[(&str, Measures)] = &[
+pub(crate) const MEASURES: &[(&str, Measures)] = &[
     ("range-and-bearing", Measures::RangeAndBearing),
     ("bearing", Measures::Bearing),
     ("range", Measures::Range),
 ];
 /// More cost more than they tell: what happened since has worn the older ones wide.
-const REMEMBERED_MAX: u64 = 256;
+pub(crate) const REMEMBERED_MAX: u64 = 256;
 
 pub(crate) fn relative(group: &Table<'_>, modem: Option<&Modem>) -> Option<Option<Relative>> {
     match group.get("relative").map(toml::Spanned::get_ref) {

@@ -11,9 +11,9 @@ use crate::sound_speed::{SOUND_SPEED_MAX_M_S, SOUND_SPEED_MIN_M_S, sound_speed};
 /// No sea is deeper: the Challenger Deep has some 10,930 m.
 pub(crate) const DEPTH_MAX_M: f64 = 12_000.0;
 /// Paths with more bounces are too weak to matter, and each costs time for every ping.
-const BOUNCES_MAX: u64 = 8;
+pub(crate) const BOUNCES_MAX: u64 = 8;
 
-const ABSORPTIONS: &[(&str, Absorption)] = &[
+pub(crate) const ABSORPTIONS: &[(&str, Absorption)] = &[
     ("francois-garrison", Absorption::FrancoisGarrison),
     ("ainslie-mccolm", Absorption::AinslieMcColm),
     ("thorp-stojanovic", Absorption::ThorpStojanovic),
@@ -23,12 +23,13 @@ const ABSORPTIONS: &[(&str, Absorption)] = &[
 /// A steady part of four fifths of the power: surface and bottom bounces are paths of their own here, so that what fades
 /// on each is only what is scattered around it.
 const RICIAN_K_DEFAULT_DB: f64 = 6.0;
-const FADING_KINDS: &[(&str, FadingKind)] = &[
+pub(crate) const FADING_KINDS: &[(&str, FadingKind)] = &[
     ("gaussian", FadingKind::Gaussian),
     ("rayleigh", FadingKind::Rayleigh),
     ("rician", FadingKind::Rician { k_db: RICIAN_K_DEFAULT_DB }),
 ];
-const FADING_PERS: &[(&str, FadingPer)] = &[("packet", FadingPer::Packet), ("bit", FadingPer::Bit)];
+pub(crate) const FADING_PERS: &[(&str, FadingPer)] =
+    &[("packet", FadingPer::Packet), ("bit", FadingPer::Bit)];
 /// A packet is over before the waves that scatter it have changed much.
 const FADING_PER_DEFAULT: FadingPer = FadingPer::Packet;
 

@@ -15,9 +15,9 @@ const PLAUSIBLE: Rule = Rule::Within(SOUND_SPEED_MIN_M_S, SOUND_SPEED_MAX_M_S);
 /// Depths that are closer together are one depth said twice, in metres.
 const SPACING_MIN_M: f64 = 1e-3;
 /// More than any cast needs after thinning; every layer costs time for every ray.
-const DEPTHS_MAX: usize = 1000;
+pub(crate) const DEPTHS_MAX: usize = 1000;
 
-const PROFILES: &[(&str, SoundSpeed)] = &[
+pub(crate) const PROFILES: &[(&str, SoundSpeed)] = &[
     ("uniform", SoundSpeed::Uniform),
     ("mixed-layer", SoundSpeed::Named(NamedProfile::MixedLayer)),
     ("summer-thermocline", SoundSpeed::Named(NamedProfile::SummerThermocline)),
@@ -25,7 +25,7 @@ const PROFILES: &[(&str, SoundSpeed)] = &[
     ("munk", SoundSpeed::Named(NamedProfile::Munk)),
 ];
 
-const FORMULAS: &[(&str, SoundSpeedFormula)] = &[
+pub(crate) const FORMULAS: &[(&str, SoundSpeedFormula)] = &[
     ("mackenzie", SoundSpeedFormula::Mackenzie),
     ("medwin", SoundSpeedFormula::Medwin),
     ("chen-millero", SoundSpeedFormula::ChenMillero),

@@ -58,6 +58,12 @@ fn profile_folder() -> PathBuf {
     folder.to_owned()
 }
 
+/// `target`, or wherever the build of the running test went.
+pub(crate) fn target_folder() -> PathBuf {
+    let profile = profile_folder();
+    profile.parent().expect("a profile's folder lies in the target folder").to_owned()
+}
+
 /// Holds all cores: while one test holds it, others that ask for it wait, in this and in other test processes. For runs with
 /// hundreds of processes.
 #[must_use]

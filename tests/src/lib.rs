@@ -7,6 +7,7 @@
 //! - [`random_scenario`] and [`random_sea_scenario`] write scenario files, each another corner of what a scenario may say;
 //!   [`Swarm`] writes those of the nightly suite.
 
+mod chromium;
 mod executable;
 mod local;
 mod network;
@@ -16,6 +17,7 @@ mod random_scenario;
 mod swarm_scenario;
 mod traces;
 
+pub use chromium::Chromium;
 pub use executable::{Command, Finished, Live, alone, shoal};
 pub use local::{LocalRunError, library_scenario, run_local, run_local_watched};
 pub use network::{Networks, Side};

@@ -9,18 +9,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::{ScaleArgs, TapBenchArgs};
 use crate::localize::LocalizeArgs;
-use crate::plot::Kind;
+use crate::manual::{CompletionsArgs, ManArgs};
+use crate::plot::PlotArgs;
+use crate::record::RecordCommand;
+use crate::replay::ReplayArgs;
+use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
 use crate::tap::TapArgs;
+use crate::view::ViewArgs;
 
 /// Simulates a swarm of autonomous underwater vehicles, each a process that knows only its own drifting clock and its own
 /// sensors, and proves at every step that none of them loses the truth.
 #[derive(Debug, Parser)]
 #[command(name = "shoal", version, max_term_width = 110)]
 #[command(
-    after_help = "Exit codes: 0 good, 1 failed, 2 usage or refused scenario, 3 finished with loss (an AUV died, or the run \
-    or its data are incomplete), 4 an enclosure did not hold the truth."
+    after_help = "Exit codes: 0 good, 1 failed, or what was compared differs, 2 usage or refused scenario, 3 finished with loss (an AUV \
+    died, or the run or its data are incomplete), 4 an enclosure did not hold the truth, 5 a record is damaged."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -62,6 +67,13 @@ pub enum Command {
         path of a value in a message's JSON, as `shoal tap info TOPIC` lists them: `reception.sinr_db < 10 and not reason == noise`."
     )]
     Tap(TapArgs),
+    /// Show a record or a live run in the browser: positions, links, boxes and wavefronts, and what each AUV knows
+    #[command(
+        after_help = "Examples:\n  shoal run swarm-1000 --record flock.mcap\n  shoal view flock.mcap\n  \
+        shoal view --live --wait 60   (and in another shell: shoal run swarm-300 --pace 1)\n  shoal view flock.mcap --export flock.html   (one file to give away)\n\nThe page is for this machine only: its address has \
+        a secret, and a remote shell is told the `ssh -L` line that leads to it. Press ? on the page for its keys."
+    )]
+    View(ViewArgs),
     /// Find out where AUVs were, after the run: all trajectories of a record together, or one vehicle from files
     #[command(
         after_help = "From a record it writes a copy that has the trajectories too, RECORD.offline.mcap beside it unless told otherwise.\n\n\
@@ -73,9 +85,15 @@ pub enum Command {
     /// Draw a figure (SVG) of what a record holds
     #[command(
         after_help = "Examples:\n  shoal run six-circles --record circles.mcap\n  shoal plot circles.mcap losses -o losses.svg\n  \
+        shoal plot circles.mcap tubes --auv 3 -o tubes.svg\n  shoal plot circles.mcap map --at-s 12.5 -o map.svg\n  \
         rsvg-convert -z 2 losses.svg -o losses.png   (from librsvg, for a PNG)"
     )]
     Plot(PlotArgs),
+    /// Write a page (HTML) that says what a run amounts to, or what two runs differ in
+    #[command(after_help = "The page is one file that needs no other and no network.\n\nExamples:\n  \
+        shoal run swarm-300 --record flock.mcap\n  shoal report flock.mcap -o flock.html\n  \
+        shoal report flock.mcap other.mcap -o both.html\n  shoal report flock.mcap --markdown -o flock.md")]
+    Report(ReportArgs),
     /// List the scenarios that come with Shoal, or print one
     #[command(after_help = "Examples:\n  shoal scenarios\n  shoal scenarios six-circles > mine.toml")]
     Scenarios {
@@ -97,11 +115,39 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// Feed what AUVs were told in a recorded run to live ones, and show where they behave otherwise
+    #[command(
+        after_help = "The AUVs of today's code, or with another estimator, are told what those of the record were told, each from its birth on. \
+        What they answer is compared with what was answered then. It is an open loop: an AUV that answers otherwise is still told what \
+        it was told then, so what is compared is what its mind makes of the same measurements, not where another course would have led.\n\n\
+        Exits with 0 when all answers are the same, with 1 when some differ, with 4 when an enclosure that promises to hold the truth \
+        lost it where the recorded one held it.\n\nExamples:\n  shoal replay flock.mcap\n  shoal replay flock.mcap --estimator ekf\n  \
+        shoal replay flock.mcap --estimator '{ name = \"tube\", rings = 0 }' --json\n  shoal replay flock.mcap --from 10 --step 0.5"
+    )]
+    Replay(ReplayArgs),
     /// Measure this machine
     Bench {
         #[command(subcommand)]
         command: BenchCommand,
     },
+    /// Print the JSON Schema of scenario files, with which editors complete and check them
+    #[command(
+        after_help = "Example:\n  shoal schema > scenario.schema.json\n\nA scenario file that begins with the line\n  \
+        #:schema ./scenario.schema.json\nis completed and checked by every editor that knows taplo (Even Better TOML for VS Code, Helix, \
+        Neovim)."
+    )]
+    Schema,
+    /// Print completions for a shell
+    #[command(
+        after_help = "Examples:\n  shoal completions bash > ~/.local/share/bash-completion/completions/shoal\n  \
+        shoal completions zsh > \"${fpath[1]}/_shoal\"\n  shoal completions fish > ~/.config/fish/completions/shoal.fish"
+    )]
+    Completions(CompletionsArgs),
+    /// Print the manual page of a verb, or write all of them
+    #[command(
+        after_help = "Examples:\n  shoal man plot | man -l -\n  shoal man --out ~/.local/share/man/man1"
+    )]
+    Man(ManArgs),
     /// A program of the user's that is one AUV; started by `run`
     #[command(hide = true)]
     Agent(AgentArgs),
@@ -137,19 +183,6 @@ pub enum BenchCommand {
         after_help = "Examples:\n  shoal bench tap\n  shoal bench tap --tap 'echo /reports --json' --pairs 9 --json"
     )]
     Tap(TapBenchArgs),
-}
-
-#[derive(Debug, Subcommand)]
-pub enum RecordCommand {
-    /// What a record holds; verifies every checksum
-    #[command(after_help = "Example:\n  shoal record info flock.mcap")]
-    Info {
-        /// The record
-        file: PathBuf,
-        /// One JSON line
-        #[arg(long)]
-        json: bool,
-    },
 }
 
 #[derive(Debug, Args)]
@@ -298,27 +331,6 @@ pub struct SweepArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct PlotArgs {
-    /// The record, as `shoal run --record` leaves it
-    pub record: PathBuf,
-    /// What to draw
-    #[arg(value_enum)]
-    pub kind: Kind,
-    /// File to write; standard output unless given
-    #[arg(long, short, value_name = "FILE.svg")]
-    pub out: Option<PathBuf>,
-    /// For `rays`: depth of the source in metres; that of the first ping unless given
-    #[arg(long, value_name = "METRES")]
-    pub depth_m: Option<f64>,
-    /// For `tubes`: of which AUV, counted from 0
-    #[arg(long, value_name = "N")]
-    pub auv: Option<u32>,
-    /// For `rays`: how far to follow them, in metres; as far as pings went unless given
-    #[arg(long, value_name = "METRES")]
-    pub range_m: Option<f64>,
-}
-
-#[derive(Debug, Args)]
 pub struct AgentArgs {
     /// Process that started it, with which it ends
     #[arg(long)]
@@ -379,7 +391,7 @@ pub enum Pace {
     Factor(f64),
 }
 
-fn parse_pace(text: &str) -> Result<Pace, String> {
+pub fn parse_pace(text: &str) -> Result<Pace, String> {
     match text {
         "max" => Ok(Pace::Max),
         _ => {

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 pub enum Exit {
     /// 0: all good.
     Good = 0,
-    /// 1: it failed.
+    /// 1: it failed, or what was compared differs.
     Failed = 1,
     /// 2: it was called wrongly, or with a scenario that is refused.
     Usage = 2,
@@ -15,6 +15,8 @@ pub enum Exit {
     Loss = 3,
     /// 4: an enclosure did not hold the truth.
     Violated = 4,
+    /// 5: a record is not what was written.
+    Damaged = 5,
 }
 
 impl From<Exit> for ExitCode {

@@ -2,9 +2,10 @@
 //!
 //! A figure is vector graphics with places to a thousandth of a pixel, so that a reader can zoom in, and the same figure has the
 //! same bytes on every machine. Colours are those of Okabe and Ito, which people with any kind of colour vision tell apart
-//! (<https://jfly.uni-koeln.de/color/>); where colour says something, shape says it too.
+//! (<https://jfly.uni-koeln.de/color/>); where colour says something, shape says it too. On a dark screen the paper is dark as well.
 
 mod axis;
+mod few;
 mod layer;
 mod mark;
 mod write;
@@ -12,6 +13,7 @@ mod write;
 pub use axis::Axis;
 pub use layer::{Layer, Turn};
 pub use mark::{Colour, Mark, Shape};
+pub use write::STYLE;
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,10 +22,24 @@ pub struct Figure {
     pub title: String,
     /// Of what: the run.
     pub subtitle: String,
-    /// The panels, from left to right.
+    /// The panels, from left to right; more than three stand in rows.
     pub panels: Vec<Panel>,
     /// What marks and colours mean, from top to bottom.
     pub legend: Vec<Entry>,
+}
+
+impl Figure {
+    /// Two figures of the same kind, with axes that hold what is in both, so that a reader can compare them.
+    pub fn on_the_same_axes(mut first: Self, mut second: Self) -> [Self; 2] {
+        for (left, right) in first.panels.iter_mut().zip(&mut second.panels) {
+            if (&left.x.label, &left.y.label) == (&right.x.label, &right.y.label) {
+                let (x, y) = (left.x.hull(&right.x), left.y.hull(&right.y));
+                (left.x, left.y) = (x.clone(), y.clone());
+                (right.x, right.y) = (x, y);
+            }
+        }
+        [first, second]
+    }
 }
 
 /// A pair of axes with what is drawn in between.

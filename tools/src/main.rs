@@ -21,13 +21,16 @@ mod janitor;
 mod launch;
 mod limits;
 mod localize;
+mod manual;
 mod memory;
 mod observers;
 mod plot;
 mod processes;
 mod processor;
 mod progress;
-mod record_info;
+mod record;
+mod replay;
+mod report;
 mod run;
 mod scenario_order;
 mod scenarios;
@@ -40,11 +43,12 @@ mod table;
 mod tap;
 mod terminal;
 mod timings_text;
+mod view;
 
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{BenchCommand, Cli, Command, RecordCommand};
+use cli::{BenchCommand, Cli, Command};
 use exit::Exit;
 use failure::{Failure, While};
 use shoal_bus::run_dir::RunDir;
@@ -65,11 +69,17 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Host(args) => host::host(args),
         Command::Localize(args) => localize::localize(args),
         Command::Plot(args) => plot::plot(args),
+        Command::Report(args) => report::report(args),
         Command::Sweep(args) => sweep::sweep(args),
         Command::Tap(args) => tap::run(args),
+        Command::View(args) => view::view(args),
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
-        Command::Record { command: RecordCommand::Info { file, json } } => record_info::info(file, *json),
+        Command::Record { command } => record::run(command),
+        Command::Replay(args) => replay::run(args),
+        Command::Schema => manual::schema(),
+        Command::Completions(args) => manual::completions(args),
+        Command::Man(args) => manual::man(args),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
         Command::Bench { command: BenchCommand::Tap(args) } => bench::tap(args),
         Command::Agent(args) => agent_process::run(args),

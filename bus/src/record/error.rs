@@ -116,6 +116,43 @@ pub enum Damage {
     /// A message belongs to no topic.
     #[error("a message names channel {0}, which the record does not describe")]
     UnknownChannel(u16),
+    /// A record stands where its kind has no business.
+    #[error("a record of the kind `{kind}` stands where none belongs")]
+    Misplaced {
+        /// Its kind.
+        kind: &'static str,
+    },
+    /// The length before a record is not that of what follows.
+    #[error("the length of a {kind} is not that of what is in it")]
+    Length {
+        /// The kind of the record.
+        kind: &'static str,
+    },
+    /// Bytes that are no record.
+    #[error("no record can be found here")]
+    NoRecord,
+    /// A chunk cannot be unpacked.
+    #[error("a chunk cannot be unpacked: {0}")]
+    Unpack(io::Error),
+    /// A chunk is packed in a way that this version does not know.
+    #[error("a chunk is packed with `{0}`, and this version of shoal unpacks `zstd`")]
+    Compression(String),
+    /// A chunk unpacks to another length than it says.
+    #[error("a chunk says that it unpacks to {stated} bytes, and unpacks to {found} or more")]
+    UnpackedLength {
+        /// The length that it states.
+        stated: u64,
+        /// The length that was found.
+        found: u64,
+    },
+    /// Something that says what stands elsewhere says it wrongly.
+    #[error("the {what} {says}")]
+    Untrue {
+        /// What is wrong.
+        what: &'static str,
+        /// What it does not agree with, as a clause.
+        says: &'static str,
+    },
     /// A chunk holds a chunk.
     #[error("a chunk stands inside a chunk")]
     NestedChunk,

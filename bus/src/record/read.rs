@@ -155,11 +155,10 @@ pub fn read_rows<R: Read + Seek>(
             let topic = Topic::ALL.into_iter().find(|topic| is_of(source, *topic));
             match topic {
                 Some(Topic::Auvs) if !beginning.is_told => {
-                    let Auvs { auvs } = parse(Topic::Auvs, data)?;
-                    visit(Row::Header(beginning.tell(auvs)));
+                    visit(Row::Header(beginning.tell(auvs_of(data)?)));
                     Ok(())
                 }
-                Some(topic) if topics.contains(&topic) => rows(topic, data, visit),
+                Some(topic) if topics.contains(&topic) => rows_of(topic, data, visit),
                 _ => Ok(()),
             }
         }
@@ -204,7 +203,19 @@ fn is_of(source: &Source, topic: Topic) -> bool {
     source.topic == topic.name() && source.schema == topic.schema_name()
 }
 
-fn rows(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
+/// Hands the rows of one message of `topic` to `visit`. [`Topic::Auvs`] and the topics for viewers and people have none.
+///
+/// ```
+/// use shoal_bus::record::{Topic, rows_of};
+/// let mut rows = 0;
+/// rows_of(Topic::Pings, br#"{"from_ns":0,"to_ns":100000000,"pings":[]}"#, &mut |_| rows += 1)?;
+/// assert_eq!(rows, 0);
+/// # Ok::<(), shoal_bus::record::Damage>(())
+/// ```
+///
+/// # Errors
+/// When the message is not one that the topic's schema describes.
+pub fn rows_of(topic: Topic, data: &[u8], visit: &mut dyn FnMut(Row)) -> Result<(), Damage> {
     match topic {
         Topic::Ticks => parse::<Ticks>(topic, data)?.ticks.into_iter().map(Row::Truth).for_each(visit),
         Topic::Reports => parse::<Reports>(topic, data)?
@@ -239,6 +250,14 @@ fn parse<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
 
 fn decode<T: DeserializeOwned>(topic: Topic, data: &[u8]) -> Result<T, Damage> {
     codec::decode(data).map_err(|source| Damage::Message { topic: topic.name(), source })
+}
+
+/// The AUVs that a message of [`Topic::Auvs`] names.
+///
+/// # Errors
+/// When the message is not one that the topic's schema describes.
+pub fn auvs_of(data: &[u8]) -> Result<Vec<RecordedAuv>, Damage> {
+    Ok(parse::<Auvs>(Topic::Auvs, data)?.auvs)
 }
 
 #[derive(Deserialize)]

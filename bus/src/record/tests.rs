@@ -5,7 +5,9 @@ mod bytes;
 mod damage;
 mod outside;
 mod read;
+mod recover;
 pub(crate) mod synthetic;
+mod verify;
 
 use super::rows::{PingRow, ReportRow, TruthRow};
 use super::*;

@@ -1,5 +1,7 @@
 //! The topics of a record: their names, schemas and encodings.
 
+use super::Source;
+
 /// Message encoding of `/sensed` and `/born`: [`codec::encode`](crate::codec::encode) of `Vec<(SimTime, AuvId, Sensed)>` and of
 /// `Vec<Born>`.
 pub const SENSED_ENCODING: &str = "application/x-shoal-bincode";
@@ -51,6 +53,22 @@ impl Topic {
         Self::Offline,
         Self::Flock,
     ];
+
+    /// The topic whose messages come from `source`; `None` for topics of others, and of other versions.
+    pub fn of(source: &Source) -> Option<Self> {
+        let is_it = |topic: &Self| source.topic == topic.name() && source.schema == topic.schema_name();
+        Self::ALL.into_iter().find(is_it)
+    }
+
+    /// The topic of this name.
+    ///
+    /// ```
+    /// use shoal_bus::record::Topic;
+    /// assert_eq!(Topic::named("/pings"), Some(Topic::Pings));
+    /// ```
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|topic| topic.name() == name)
+    }
 
     /// The topic's name in the file.
     pub fn name(self) -> &'static str {

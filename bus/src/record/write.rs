@@ -67,15 +67,7 @@ impl<W: Write> RecordWriter<W> {
     /// # Errors
     /// When `writer` does not take the bytes.
     pub fn create(writer: W, header: &RecordHeader) -> Result<Self, RecordWriteError> {
-        let options = WriteOptions::new()
-            .library("shoal")
-            .compression(Some(Compression::Zstd))
-            .compression_level(ZSTD_LEVEL)
-            .compression_threads(0)
-            .chunk_size(Some(CHUNK_LIMIT_BYTES))
-            // A chunk is built in memory and written at once: a file that is cut ends with a whole chunk or a piece of one.
-            .disable_seeking(true);
-        let mut mcap = options.create(NoSeek::new(writer))?;
+        let mut mcap = options(Some(CHUNK_LIMIT_BYTES)).create(NoSeek::new(writer))?;
         mcap.write_metadata(&metadata(
             METADATA_RUN,
             [
@@ -282,6 +274,18 @@ impl<W: Write> RecordWriter<W> {
         self.written = at;
         Ok(())
     }
+}
+
+/// How every record is written.
+pub(super) fn options(chunk_limit_bytes: Option<u64>) -> WriteOptions {
+    WriteOptions::new()
+        .library("shoal")
+        .compression(Some(Compression::Zstd))
+        .compression_level(ZSTD_LEVEL)
+        .compression_threads(0)
+        .chunk_size(chunk_limit_bytes)
+        // A chunk is built in memory and written at once: a file that is cut ends with a whole chunk or a piece of one.
+        .disable_seeking(true)
 }
 
 /// End of the simulated second `(k - 1, k]` that holds `at`.

@@ -1,5 +1,6 @@
 //! Programs of the user's as AUVs: the example in Python flies, and whatever such a program does wrong costs only itself.
 
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 
 use rustix::process::Signal;
@@ -69,6 +70,24 @@ fn python_flies_and_the_digest_is_one() {
         "{:?}",
         digests.iter().map(|of| &of.0).collect::<Vec<_>>()
     );
+}
+
+#[test]
+fn python_flies_beside_a_host_and_in_a_free_run() {
+    needs_python();
+    let run = |options: &str| Command::new("run --duration 10").with(polyglot()).and(options);
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let endpoint = format!("tcp/{}", listener.local_addr().unwrap());
+    drop(listener);
+    let host = Command::new("host --slots 9 --connect").with(&endpoint).start();
+    let on_a_host = run("--hosts 1 --listen").with(&endpoint).json();
+    host.finish().succeeded();
+    assert_eq!(on_a_host["digest"], run("").json()["digest"]);
+    let free = run("--free-run --pace 4").json();
+    for summary in [on_a_host, free] {
+        assert_eq!((lost(&summary), &summary["containment"]["violations"]), (vec![], &0.into()), "{summary}");
+        assert_eq!(summary["processes"], 5);
+    }
 }
 
 #[test]

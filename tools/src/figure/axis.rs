@@ -49,6 +49,32 @@ impl Axis {
         Self { first: self.last, last: self.first, ..self }
     }
 
+    /// An axis that runs the same way and holds what both hold.
+    pub fn hull(&self, other: &Self) -> Self {
+        let is_reversed = self.first > self.last;
+        let ends = [self.first, self.last, other.first, other.last];
+        let (least, greatest) = (
+            ends.into_iter().fold(f64::INFINITY, f64::min),
+            ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        );
+        let axis = Self::new(self.label.clone(), least, greatest);
+        if is_reversed { axis.reversed() } else { axis }
+    }
+
+    /// Both axes of a map in a panel of this width and height: the same scale along both, with everything between `least` and
+    /// `greatest`.
+    pub fn map(labels: [&str; 2], least: [f64; 2], greatest: [f64; 2], size_px: [f64; 2]) -> [Self; 2] {
+        let around = |axis: usize| Self::around(labels[axis], least[axis], greatest[axis]);
+        let axes = [around(0), around(1)];
+        let units = |axis: usize| (axes[axis].last - axes[axis].first) / size_px[axis];
+        let scale = units(0).max(units(1));
+        let [x, y] = axes;
+        [(x, size_px[0]), (y, size_px[1])].map(|(axis, length_px)| {
+            let (middle, half) = (0.5 * axis.first + 0.5 * axis.last, 0.5 * scale * length_px);
+            Self::new(axis.label, middle - half, middle + half)
+        })
+    }
+
     /// Where `value` lies: 0 at the beginning, 1 at the end.
     pub fn part(&self, value: f64) -> f64 {
         (value - self.first) / (self.last - self.first)

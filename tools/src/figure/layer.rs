@@ -19,7 +19,14 @@ pub enum Layer {
         /// `[x1, x2, y1, y2]` of each.
         bars: Vec<[f64; 4]>,
     },
-    /// A polygon.
+    /// Outlines between two values of x and two of y.
+    Boxes {
+        /// In which colour.
+        colour: Colour,
+        /// `[x1, x2, y1, y2]` of each.
+        boxes: Vec<[f64; 4]>,
+    },
+    /// A polygon: a lower bound from left to right, and as many corners of an upper one back.
     Area {
         /// In which colour.
         colour: Colour,
@@ -32,6 +39,13 @@ pub enum Layer {
         colour: Colour,
         /// The points.
         points: Vec<[f64; 2]>,
+    },
+    /// Straight lines between two points each.
+    Segments {
+        /// In which colour.
+        colour: Colour,
+        /// The two ends of each.
+        ends: Vec<[[f64; 2]; 2]>,
     },
     /// Arcs from point to point, as of a ray.
     Arcs {
@@ -49,6 +63,29 @@ pub struct Turn {
     pub at: [f64; 2],
     /// Direction of the curve, a vector of length one in the units of the axes, which must be the same.
     pub direction: [f64; 2],
+}
+
+impl Layer {
+    /// A circle, for axes of the same units.
+    pub fn circle(colour: Colour, centre: [f64; 2], radius: f64) -> Self {
+        const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+        const DIRECTIONS: [[f64; 2]; 9] = [
+            [1.0, 0.0],
+            [HALF, HALF],
+            [0.0, 1.0],
+            [-HALF, HALF],
+            [-1.0, 0.0],
+            [-HALF, -HALF],
+            [0.0, -1.0],
+            [HALF, -HALF],
+            [1.0, 0.0],
+        ];
+        let turn = |[x, y]: [f64; 2]| Turn {
+            at: [centre[0] + radius * x, centre[1] + radius * y],
+            direction: [-y, x],
+        };
+        Self::Arcs { colour, turns: DIRECTIONS.map(turn).to_vec() }
+    }
 }
 
 impl Turn {

@@ -128,7 +128,7 @@ fn draw_kind(kind: &str, record: &[u8], more: &[&str]) -> Result<String, String>
     else {
         panic!("another command");
     };
-    let (svg, ending) = draw(Cursor::new(record), plot_of(&args))?;
+    let (svg, ending) = draw_one(Cursor::new(record), plot_of(args.kind, &args.of))?;
     assert_eq!(ending, Ending::Complete);
     assert_well_formed(&svg);
     Ok(svg)
