@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
-use crate::bench::ScaleArgs;
+use crate::bench::{ScaleArgs, TapBenchArgs};
 use crate::localize::LocalizeArgs;
 use crate::manual::{CompletionsArgs, ManArgs};
 use crate::plot::PlotArgs;
@@ -178,6 +178,11 @@ pub enum BenchCommand {
         shoal bench scale --control-period-s 1"
     )]
     Scale(ScaleArgs),
+    /// What a tap at full speed costs the run that it looks at; its digest must stay the same
+    #[command(
+        after_help = "Examples:\n  shoal bench tap\n  shoal bench tap --tap 'echo /reports --json' --pairs 9 --json"
+    )]
+    Tap(TapBenchArgs),
 }
 
 #[derive(Debug, Args)]

@@ -81,6 +81,7 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Completions(args) => manual::completions(args),
         Command::Man(args) => manual::man(args),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
+        Command::Bench { command: BenchCommand::Tap(args) } => bench::tap(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
         Command::Janitor { run } => {
