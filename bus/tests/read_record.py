@@ -41,6 +41,21 @@ def told(data):
     return rows
 
 
+def born(data):
+    """How many AUVs one `shoal.Born/1` message tells of, and number and name of the first."""
+    version, count, auv, _group, length = struct.unpack_from("<HQIHQ", data)
+    assert version == 1
+    start = struct.calcsize("<HQIHQ")
+    return count, auv, data[start : start + length].decode()
+
+
+# What Foxglove's own schemas need (https://docs.foxglove.dev/docs/sdk/schemas).
+NEEDED = {
+    "/truth": {"timestamp", "frame_id", "poses"},
+    "/log": {"timestamp", "level", "message", "name", "file", "line"},
+}
+
+
 def closed(schema):
     """The schema without a place for what it does not name."""
     if isinstance(schema, list):
@@ -54,10 +69,11 @@ def closed(schema):
 def read(reader):
     """Messages of each topic, and what they sum up to."""
     topics, found = {}, {"ticks": 0, "reports": 0, "pings": 0, "told": 0, "heard_bytes": 0}
-    validators = {}
+    validators, names = {}, []
     for schema, channel, message in reader.iter_messages(log_time_order=False):
         topics[channel.topic] = topics.get(channel.topic, 0) + 1
         if channel.topic == "/born":
+            assert born(message.data) == (len(names), 0, names[0])
             continue
         if channel.message_encoding == "application/x-shoal-bincode":
             rows = told(message.data)
@@ -69,6 +85,14 @@ def read(reader):
             validators[channel.topic] = Draft202012Validator(closed(json.loads(schema.data)))
         for error in validators[channel.topic].iter_errors(content):
             raise AssertionError(f"{channel.topic} {error.json_path}: {error.message}")
+        assert NEEDED.get(channel.topic, set()) <= content.keys(), f"{channel.topic}: {content.keys()}"
+        if channel.topic == "/auvs":
+            names = [told["name"] for told in content["auvs"]]
+        if channel.topic == "/truth":
+            assert content["frame_id"] == "water" and len(content["poses"]) <= len(names)
+            lengths = [sum(part * part for part in pose["orientation"].values()) for pose in content["poses"]]
+            assert all(abs(length - 1) < 1e-5 for length in lengths)
+            assert all({"x", "y", "z"} == pose["position"].keys() for pose in content["poses"])
         rows = channel.topic.removeprefix("/")
         if rows in ("ticks", "reports", "pings"):
             found[rows] += len(content[rows])

@@ -8,7 +8,20 @@ fn a_record_becomes_figures() {
     let [record, figure, cut] = ["run.mcap", "figure.svg", "cut.mcap"].map(|name| folder.path().join(name));
     let summary =
         Command::new("run --bus local").with(scenario_file("shadow")).and("--record").with(&record).json();
-    for kind in ["losses", "ranges", "reach", "rays", "sinr", "estimators", "flock"] {
+    let kinds = [
+        "losses",
+        "ranges",
+        "reach",
+        "rays",
+        "sinr",
+        "estimators",
+        "flock",
+        "tubes",
+        "widths",
+        "map",
+        "links",
+    ];
+    for kind in kinds {
         Command::new("plot").with(&record).and(kind).and("-o").with(&figure).finish().succeeded();
         let svg = std::fs::read_to_string(&figure).unwrap();
         assert!(svg.starts_with("<svg") && svg.contains("shadow, seed 3, 30 AUVs"), "{kind}: {svg}");
@@ -29,6 +42,27 @@ fn a_record_becomes_figures() {
     let finished = Command::new("plot").with(&cut).and("reach").finish();
     assert_eq!(finished.status.code(), Some(3), "{finished:?}");
     assert!(finished.stdout.starts_with("<svg") && finished.stderr.contains("ends before the run does"));
+}
+
+#[test]
+fn a_figure_becomes_a_picture_as_the_help_says() {
+    let help = Command::new("plot --help").finish().succeeded().stdout;
+    assert!(help.contains("rsvg-convert -z 2 losses.svg -o losses.png"), "{help}");
+    let folder = tempfile::tempdir().unwrap();
+    let [record, figure, picture] = ["run.mcap", "map.svg", "map.png"].map(|name| folder.path().join(name));
+    Command::new("run swarm-3 --duration 5 --bus local --record").with(&record).json();
+    Command::new("plot").with(&record).and("map --at-s 2.5 -o").with(&figure).finish().succeeded();
+    let convert =
+        |arguments: &[&std::path::Path]| std::process::Command::new("rsvg-convert").args(arguments).output();
+    let [version, zoom, twice, out] = ["--version", "-z", "2", "-o"].map(std::path::Path::new);
+    if convert(&[version]).is_err() {
+        println!("skipped: there is no rsvg-convert (librsvg)");
+        return;
+    }
+    let output = convert(&[zoom, twice, &figure, out, &picture]).unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let bytes = std::fs::read(&picture).unwrap();
+    assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.len() > 10_000, "{}", bytes.len());
 }
 
 #[test]
@@ -57,4 +91,6 @@ fn what_cannot_be_drawn_is_refused() {
     refused("plot nowhere.mcap losses", 1, "nowhere.mcap: ");
     refused("plot Cargo.toml losses", 1, "Cargo.toml: this is not an MCAP file");
     refused("plot nowhere.mcap lost", 2, "losses");
+    refused("plot nowhere.mcap losses --auv 3", 2, "--auv is for `tubes` and `widths`");
+    refused("plot nowhere.mcap map --at-s soon", 2, "give seconds of true time");
 }

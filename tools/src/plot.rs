@@ -239,4 +239,6 @@ fn write(out: &Path, svg: &str) -> Result<(), Failure> {
 }
 
 #[cfg(test)]
+mod moments;
+#[cfg(test)]
 mod tests;

@@ -25,8 +25,8 @@ pub const STYLE: &str = "svg text{font:12px sans-serif;fill:#222}svg .title{font
 .paper{fill:#fff}.frame{fill:none;stroke:#444}.grid{fill:none;stroke:#ececec}.line{fill:none;stroke-width:1.1;stroke-linejoin:round}\
 .area{fill-opacity:.85}.filled{fill-opacity:.75}.drawn{fill:none;stroke-width:1.3}\
 @media screen and (prefers-color-scheme:dark){svg text{fill:#ddd}svg .subtitle{fill:#aaa}.paper{fill:#15181c}.frame{stroke:#999}.grid{stroke:#2a2e34}\
-[fill=\"#000000\"]{fill:#fff}[stroke=\"#000000\"]{stroke:#fff}[fill=\"#e4e4e4\"]{fill:#3a3f46}[stroke=\"#e4e4e4\"]{stroke:#3a3f46}\
-[fill=\"#0072b2\"]{fill:#2f93d6}[stroke=\"#0072b2\"]{stroke:#2f93d6}[fill=\"#56b4e9\"]{fill:#8ed0f5}[stroke=\"#56b4e9\"]{stroke:#8ed0f5}}";
+[fill='#000000']{fill:#fff}[stroke='#000000']{stroke:#fff}[fill='#e4e4e4']{fill:#3a3f46}[stroke='#e4e4e4']{stroke:#3a3f46}\
+[fill='#0072b2']{fill:#2f93d6}[stroke='#0072b2']{stroke:#2f93d6}[fill='#56b4e9']{fill:#8ed0f5}[stroke='#56b4e9']{stroke:#8ed0f5}}";
 
 impl Figure {
     /// The text of an SVG file.
