@@ -199,3 +199,11 @@ pub fn raise_descriptor_limit() -> io::Result<Option<u64>> {
     }
     Ok(limit.maximum)
 }
+
+/// Lets other processes of this machine go first, from now on.
+pub fn give_way() -> io::Result<()> {
+    /// The greatest niceness there is.
+    const LEAST_URGENT: i32 = 19;
+    rustix::process::nice(LEAST_URGENT)?;
+    Ok(())
+}

@@ -145,18 +145,30 @@ impl Chromium {
     /// # Panics
     /// When the browser or the disk refuses.
     pub fn picture(&mut self, name: &str) -> PathBuf {
-        let picture = self.call("Page.captureScreenshot", json!({ "format": "png" }));
-        let folder = crate::executable::target_folder().join("view");
-        std::fs::create_dir_all(&folder).expect("a folder for pictures can be made");
-        let path = folder.join(format!("{name}.png"));
-        let data = picture["data"].as_str().expect("a picture has data");
-        std::fs::write(&path, base64(data)).expect("a picture can be written");
-        path
+        self.keep(&format!("{name}.png"), json!({ "format": "png" }))
+    }
+
+    /// As [`picture`](Self::picture), small enough for the documentation: `target/view/NAME.webp`.
+    ///
+    /// # Panics
+    /// When the browser or the disk refuses.
+    pub fn small_picture(&mut self, name: &str) -> PathBuf {
+        self.keep(&format!("{name}.webp"), json!({ "format": "webp", "quality": 82 }))
     }
 
     /// What has gone wrong on the page so far: exceptions, and what its own policy refused.
     pub fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn keep(&mut self, name: &str, format: Value) -> PathBuf {
+        let picture = self.call("Page.captureScreenshot", format);
+        let folder = crate::executable::target_folder().join("view");
+        std::fs::create_dir_all(&folder).expect("a folder for pictures can be made");
+        let path = folder.join(name);
+        let data = picture["data"].as_str().expect("a picture has data");
+        std::fs::write(&path, base64(data)).expect("a picture can be written");
+        path
     }
 
     fn call(&mut self, method: &str, parameters: Value) -> Value {

@@ -25,7 +25,7 @@ fn five_events_as_json_and_as_text() {
     let events = finished.json_lines();
     assert_eq!(events.len(), 5);
     for event in &events {
-        assert_eq!(event["format"], "shoal.ping/1");
+        assert_eq!((&event["format"], &event["topic"]), (&"shoal.tap/1".into(), &"/pings".into()));
         assert!(event["t_ns"].as_i64().unwrap() > 0);
         assert!(event["from"].as_u64().unwrap() < 3 && event["sequence"].is_u64());
         let fields: &[&str] = match event["fate"].as_str().unwrap() {
@@ -71,12 +71,20 @@ fn of_two_runs_it_asks_which() {
     for named in ["--run", "swarm-3", "six-auvs-3d", &ids[0], &ids[1]] {
         assert!(finished.stderr.contains(named), "{named}: {}", finished.stderr);
     }
-    for (id, auvs) in ids.iter().zip([3, 6]) {
+    // The name of the scenario will do, where it is only one's.
+    let named = ["swarm-3".to_owned(), "six-auvs-3d".to_owned()];
+    for (id, auvs) in ids.iter().zip([3, 6]).chain(named.iter().zip([3, 6])) {
         let events = Command::new("tap --count 40 --json --run").with(id).finish().succeeded().json_lines();
         assert_eq!(events.len(), 40);
         assert!(events.iter().all(|event| event["from"].as_u64().unwrap() < auvs), "{events:?}");
     }
-    for live in [first, second] {
+    let mut third = Command::new("run swarm-3 --pace 3 --json").start();
+    third.await_pings(3);
+    let finished = Command::new("tap --run swarm-3").finish().exited(2);
+    assert!(finished.stderr.contains("several live runs are of `swarm-3`"), "{}", finished.stderr);
+    let finished = Command::new("tap --run swarm-4").finish().exited(1);
+    assert!(finished.stderr.contains("did you mean `swarm-3`?"), "{}", finished.stderr);
+    for live in [first, second, third] {
         live.signal(rustix::process::Signal::INT);
         live.finish().exited(3);
     }

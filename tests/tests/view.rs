@@ -1,6 +1,6 @@
 //! `shoal view`, in a browser as people use it, and as others must not.
 //!
-//! Pictures of what the browser showed are left in `target/view/`. Without Chromium, what needs it is skipped and says so.
+//! Pictures of what the browser showed are left in `target/view/`; those whose name begins with `view-` are in `tools/docs` as well. Without Chromium, what needs it is skipped and says so.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -51,7 +51,7 @@ impl View {
     fn asked(&self, path: &str, headers: &str) -> String {
         let host = self.url.split('/').nth(2).unwrap();
         let mut stream = TcpStream::connect(host).unwrap();
-        write!(stream, "GET {path} HTTP/1.1\r\n{headers}\r\n").unwrap();
+        stream.write_all(format!("GET {path} HTTP/1.1\r\n{headers}\r\n").as_bytes()).unwrap();
         let mut answer = String::new();
         stream.read_to_string(&mut answer).unwrap();
         answer
@@ -142,6 +142,7 @@ fn the_swarm_is_seen_in_layers_and_panes() {
 
     // Okabe and Ito's sky blue, bluish green and vermilion are there.
     let all = page.picture("swarm-1000-layers");
+    page.small_picture("view-layers");
     let colours = [[86, 180, 233], [0, 158, 115], [213, 94, 0]];
     for colour in colours {
         let seen = pixels(&mut page, &all, colour);
@@ -168,6 +169,7 @@ fn the_swarm_is_seen_in_layers_and_panes() {
     assert_eq!(facts(&mut page)["calls"], 2 + 3 + 3 + 3);
     let panes = page.picture("swarm-1000-panes");
     assert!(pixels(&mut page, &panes, colours[0]) > 1000);
+    page.small_picture("view-panes");
 
     // How fast it is, for people.
     page.value("document.activeElement.blur(); shoal.from = [performance.now(), shoal.facts.frames]");
@@ -245,6 +247,7 @@ fn an_auv_is_selected_and_charted() {
     page.press("r");
     settle(&mut page);
     page.picture("six-circles-selected");
+    page.small_picture("view-tube");
 
     // All four tubes, and relative to the truth.
     for (presses, axis) in [("a", "y"), ("a", "z"), ("a", "clock"), ("a", "x")] {

@@ -7,11 +7,12 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
 
-use crate::bench::ScaleArgs;
+use crate::bench::{ScaleArgs, TapBenchArgs};
 use crate::localize::LocalizeArgs;
 use crate::manual::{CompletionsArgs, ManArgs};
 use crate::plot::PlotArgs;
 use crate::record::RecordCommand;
+use crate::replay::ReplayArgs;
 use crate::report::ReportArgs;
 use crate::set::Setting;
 use crate::sweep::{Axis, Seeds};
@@ -114,6 +115,16 @@ pub enum Command {
         #[command(subcommand)]
         command: RecordCommand,
     },
+    /// Feed what AUVs were told in a recorded run to live ones, and show where they behave otherwise
+    #[command(
+        after_help = "The AUVs of today's code, or with another estimator, are told what those of the record were told, each from its birth on. \
+        What they answer is compared with what was answered then. It is an open loop: an AUV that answers otherwise is still told what \
+        it was told then, so what is compared is what its mind makes of the same measurements, not where another course would have led.\n\n\
+        Exits with 0 when all answers are the same, with 1 when some differ, with 4 when an enclosure that promises to hold the truth \
+        lost it where the recorded one held it.\n\nExamples:\n  shoal replay flock.mcap\n  shoal replay flock.mcap --estimator ekf\n  \
+        shoal replay flock.mcap --estimator '{ name = \"tube\", rings = 0 }' --json\n  shoal replay flock.mcap --from 10 --step 0.5"
+    )]
+    Replay(ReplayArgs),
     /// Measure this machine
     Bench {
         #[command(subcommand)]
@@ -167,6 +178,11 @@ pub enum BenchCommand {
         shoal bench scale --control-period-s 1"
     )]
     Scale(ScaleArgs),
+    /// What a tap at full speed costs the run that it looks at; its digest must stay the same
+    #[command(
+        after_help = "Examples:\n  shoal bench tap\n  shoal bench tap --tap 'echo /reports --json' --pairs 9 --json"
+    )]
+    Tap(TapBenchArgs),
 }
 
 #[derive(Debug, Args)]
@@ -375,7 +391,7 @@ pub enum Pace {
     Factor(f64),
 }
 
-fn parse_pace(text: &str) -> Result<Pace, String> {
+pub fn parse_pace(text: &str) -> Result<Pace, String> {
     match text {
         "max" => Ok(Pace::Max),
         _ => {

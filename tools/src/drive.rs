@@ -86,6 +86,9 @@ fn windows(
         }
         let to = (channel.now() + plan.window_ns).min(channel.end());
         keep_pace(plan.pace, began, to, interrupted);
+        if observers.iter().any(|observer| observer.watches_flock()) {
+            channel.watch_flock();
+        }
         watch.begin();
         let sensed = channel.advance(to).map_err(Failure::failed)?;
         watch.lap(Phase::Channel);
@@ -134,9 +137,6 @@ pub fn revive(channel: &mut Channel, fleet: &mut dyn Fleet) -> Result<bool, Fail
 /// Tells the observers what happened in the window last accepted.
 pub fn tell(channel: &mut Channel, observers: &mut [&mut dyn Observer]) -> Result<(), Failure> {
     let to = channel.accepted();
-    if observers.iter().any(|observer| observer.watches_flock()) {
-        channel.watch_flock();
-    }
     let entries = channel.chronicle().map_err(Failure::failed)?;
     for observer in observers.iter_mut() {
         observer.window(to, entries);

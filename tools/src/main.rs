@@ -29,6 +29,7 @@ mod processes;
 mod processor;
 mod progress;
 mod record;
+mod replay;
 mod report;
 mod run;
 mod scenario_order;
@@ -75,10 +76,12 @@ fn command(command: &Command) -> Result<Exit, Failure> {
         Command::Scenarios { name, json } => scenarios::list(name.as_deref(), *json),
         Command::Check { scenarios } => scenarios::check(scenarios),
         Command::Record { command } => record::run(command),
+        Command::Replay(args) => replay::run(args),
         Command::Schema => manual::schema(),
         Command::Completions(args) => manual::completions(args),
         Command::Man(args) => manual::man(args),
         Command::Bench { command: BenchCommand::Scale(args) } => bench::scale(args),
+        Command::Bench { command: BenchCommand::Tap(args) } => bench::tap(args),
         Command::Agent(args) => agent_process::run(args),
         Command::Auv(args) => auv_process::run(args),
         Command::Janitor { run } => {

@@ -12,17 +12,17 @@
 //! | `select.rs` | which of them are wanted |
 //! | `source.rs` | a record that is read, with its troubles |
 
-mod batches;
+pub mod batches;
 mod cat;
 mod columns;
 pub mod compare;
-mod diff;
+pub mod diff;
 mod digest;
-mod events;
+pub mod events;
 mod export;
 mod info;
 mod recover;
-mod select;
+pub mod select;
 pub mod source;
 mod verify;
 
@@ -49,6 +49,7 @@ pub enum RecordCommand {
     #[command(
         after_help = "A line is an event as the topic's schema describes it, behind the name of its topic.\n\nExamples:\n  \
         shoal record cat flock.mcap --topic /pings --auv 7 --from-s 10 --to-s 20\n  \
+        shoal record cat flock.mcap --filter \"reason == collision and range_m < 200\"\n  \
         shoal record cat flock.mcap --topic /reports --count 1 | jq .position_m"
     )]
     Cat(cat::CatArgs),

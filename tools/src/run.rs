@@ -65,7 +65,7 @@ pub fn run(args: &RunArgs) -> Result<Exit, Failure> {
 }
 
 /// Removes what the run leaves in shared memory, however it ends.
-struct Residue(RunDir);
+pub struct Residue(pub RunDir);
 
 impl Drop for Residue {
     fn drop(&mut self) {

@@ -45,6 +45,8 @@ pub struct Verification {
     pub until_s: Option<f64>,
     /// What it lost, in its own words, when it was [recovered](super::recover) from a damaged record.
     pub recovered: Option<String>,
+    /// The digest that the record states, and whether scenario and seed determine it; `None` when the run did not end.
+    pub digest: Option<(String, bool)>,
     /// What is damaged, in the order of the file; empty when nothing is.
     pub faults: Vec<Fault>,
 }
@@ -133,6 +135,7 @@ pub fn verify<R: Read + Seek>(
         chunks: data.chunks,
         messages: data.messages,
         until_s: data.until_s(),
+        digest: data.meaning.digest(),
         recovered: data.meaning.recovered,
         faults,
     })

@@ -62,20 +62,19 @@ pub struct Told {
 }
 
 impl Told {
-    /// What tells it from others.
-    pub fn key(&self) -> (SimTime, Option<u32>, u8) {
-        let rank = match self.topic {
-            Topic::Auvs | Topic::Born => 0,
-            Topic::Ticks => 1,
-            Topic::Sensed => 2,
-            Topic::Reports => 3,
-            Topic::Pings => 4,
-            Topic::Log => 5,
-            Topic::Flock | Topic::Poses => 6,
-            Topic::Summary => 7,
-            Topic::Offline => 8,
+    /// What tells it from others: what was told at birth comes first, what is about the swarm as a whole last.
+    pub fn key(&self) -> (SimTime, u8, Option<u32>, u8) {
+        let (class, rank) = match self.topic {
+            Topic::Auvs | Topic::Born => (0, 0),
+            Topic::Ticks => (1, 0),
+            Topic::Sensed => (1, 1),
+            Topic::Reports => (1, 2),
+            Topic::Pings => (1, 3),
+            Topic::Log => (1, 4),
+            Topic::Offline => (1, 5),
+            Topic::Flock | Topic::Poses | Topic::Summary => (2, 0),
         };
-        (self.at, self.auv, rank)
+        (self.at, class, self.auv, rank)
     }
 }
 

@@ -24,6 +24,7 @@ pub struct CatArgs {
 
 /// Prints them.
 pub fn cat(args: &CatArgs) -> Result<Exit, Failure> {
+    args.selection.check()?;
     let mut record = Record::open(&args.file)?;
     let mut out = BufWriter::new(io::stdout().lock());
     let mut left = args.selection.count.unwrap_or(u64::MAX);

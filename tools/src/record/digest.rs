@@ -38,7 +38,6 @@ pub struct Recount {
     batch: Vec<Entry>,
     /// End of that batch.
     end: i64,
-    stated: Option<(String, bool)>,
     unknown: Option<&'static str>,
 }
 
@@ -69,11 +68,12 @@ impl Recount {
                 }
                 return;
             }
-            Row::Summary(summary) => {
-                self.stated = Some((summary.digest.clone(), summary.reproducible));
-                return;
-            }
-            Row::Header(_) | Row::Offline(_) | Row::Flock(_) | Row::Poses(_) | Row::Log(_) => return,
+            Row::Header(_)
+            | Row::Offline(_)
+            | Row::Flock(_)
+            | Row::Poses(_)
+            | Row::Log(_)
+            | Row::Summary(_) => return,
         };
         let end = batch_end(at);
         if end != self.end {
@@ -83,10 +83,10 @@ impl Recount {
         self.batch.push(Entry { at, auv, what });
     }
 
-    /// The digest of the events, against the one that the record states.
-    pub fn finish(mut self) -> Fit {
+    /// The digest of the events, against the one that the record states, and whether scenario and seed determine it.
+    pub fn finish(mut self, stated: Option<(String, bool)>) -> Fit {
         self.close();
-        match (self.unknown, self.stated) {
+        match (self.unknown, stated) {
             (_, None) => Fit::Unknown("the run did not end"),
             (_, Some((_, false))) => Fit::Unknown("the run cannot be reproduced"),
             (Some(why), _) => Fit::Unknown(why),

@@ -51,6 +51,7 @@ pub fn export(args: &ExportArgs) -> Result<Exit, Failure> {
         let _closed = io::stdout().lock().write_all(description().as_bytes());
         return Ok(Exit::Good);
     };
+    args.selection.check()?;
     let mut record = Record::open(file)?;
     let mut tables = Tables::new(args)?;
     let mut left = args.selection.count.unwrap_or(u64::MAX);

@@ -7,6 +7,7 @@ use shoal_bus::time::{NS_PER_S, SimTime};
 use super::events::{Event, is_about};
 use super::source::Record;
 use crate::failure::Failure;
+use crate::filter::{Fields, Filter, FilterError, similar};
 
 /// Which events are wanted.
 #[derive(Debug, Args)]
@@ -23,6 +24,9 @@ pub struct Selection {
     /// Only what is about this AUV, by number or name: its own, and pings to and from it
     #[arg(long, value_name = "N")]
     pub auv: Option<String>,
+    /// Only events that satisfy this, such as `range_m > 400 and fate == lost`, with the fields of the topic's schema: as `shoal tap`
+    #[arg(long, value_name = "EXPR", value_parser = Filter::parse)]
+    pub filter: Option<Filter>,
     /// No more than so many
     #[arg(long, value_name = "N")]
     pub count: Option<u64>,
@@ -48,6 +52,18 @@ impl Selection {
             && self.to_s.is_some_and(|to| at - to > shoal_bus::record::BATCH_NS)
     }
 
+    /// Refuses a filter for a field that messages of none of the topics have.
+    pub fn check(&self) -> Result<(), Failure> {
+        let Some(filter) = &self.filter else { return Ok(()) };
+        let topics = if self.topics.is_empty() { &Topic::ALL[..] } else { &self.topics };
+        let checked: Vec<Result<(), FilterError>> =
+            topics.iter().map(|topic| filter.check(&Fields::of(*topic))).collect();
+        match checked.into_iter().reduce(Result::or) {
+            Some(Err(error)) => Err(Failure::usage(error)),
+            _ => Ok(()),
+        }
+    }
+
     /// The selection in this record.
     pub fn in_record(&self, record: &Record) -> Result<Selected<'_>, Failure> {
         let named = |named: &String| {
@@ -63,6 +79,7 @@ impl Selected<'_> {
     pub fn takes(&self, topic: Topic, event: &Event) -> bool {
         self.of.from_s.is_none_or(|from| event.at >= from)
             && self.of.to_s.is_none_or(|to| event.at <= to)
+            && self.of.filter.as_ref().is_none_or(|filter| filter.matches(&event.value))
             && self.auv.as_ref().is_none_or(|(auv, name)| is_about(topic, &event.value, *auv, name))
     }
 }
@@ -70,9 +87,10 @@ impl Selected<'_> {
 /// A topic by its name, with or without the slash.
 pub fn parse_topic(text: &str) -> Result<Topic, String> {
     let name = format!("/{}", text.trim_start_matches('/'));
-    Topic::named(&name).ok_or_else(|| {
-        let names: Vec<&str> = Topic::ALL.iter().map(|topic| topic.name()).collect();
-        format!("no such topic; there are {}", names.join(", "))
+    let names = || Topic::ALL.iter().map(|topic| topic.name());
+    Topic::named(&name).ok_or_else(|| match similar(&name, names()) {
+        Some(similar) => format!("no such topic; did you mean `{similar}`?"),
+        None => format!("no such topic; there are {}", names().collect::<Vec<_>>().join(", ")),
     })
 }
 

@@ -109,11 +109,6 @@ impl Record {
         wrong(&self.path, error)
     }
 
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Who is meant by a number or a name; a sentence when nobody is.
     pub fn auv(&self, named: &str) -> Result<u32, Failure> {
         let by_number = named.parse().ok().filter(|auv: &u32| (*auv as usize) < self.names.len());

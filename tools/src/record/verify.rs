@@ -33,10 +33,11 @@ pub fn verify(args: &VerifyArgs) -> Result<Exit, Failure> {
     let file = File::open(&args.file).map_err(|error| wrong(&args.file, &error))?;
     let mut recount = Recount::default();
     let found = check(file, &mut |row| recount.take(row)).map_err(|error| wrong(&args.file, &error))?;
-    let fit = if found.is_whole() && found.recovered.is_none() {
-        recount.finish()
+    let is_complete = found.is_whole() && found.recovered.is_none();
+    let fit = if is_complete {
+        recount.finish(found.digest.clone())
     } else {
-        Fit::Unknown("it is not whole")
+        Fit::Unknown("some of them are missing")
     };
     let text = if args.json { line(&found, &fit) } else { text(args, &found, &fit) };
     // Whoever closed our output does not want it; the exit code still tells.

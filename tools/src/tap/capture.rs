@@ -5,7 +5,6 @@ use std::io::BufWriter;
 use std::path::Path;
 
 use shoal_bus::record::{RecordWriter, Row, Topic};
-use shoal_bus::time::SimTime;
 
 use super::args::TapArgs;
 use super::choice::Choice;
@@ -60,8 +59,10 @@ pub fn capture(args: &TapArgs, topic: Option<Topic>, path: &Path) -> Result<Exit
         }
         rows.retain(|row| !matches!(row, Row::Summary(_)));
         rows.truncate(usize::try_from(left).unwrap_or(usize::MAX));
-        let to = if args.origin.read.is_some() { just_after(window.to) } else { window.to };
-        writer.append_rows(&rows).and_then(|()| writer.advance(to)).map_err(|error| failed(&error))?;
+        writer.append_rows(&rows).and_then(|()| writer.advance(window.to)).map_err(|error| failed(&error))?;
+        if !rows.is_empty() {
+            source.taken();
+        }
         written += rows.len() as u64;
         left = left.saturating_sub(rows.len() as u64);
         if left == 0 {
@@ -82,11 +83,6 @@ pub fn capture(args: &TapArgs, topic: Option<Topic>, path: &Path) -> Result<Exit
     .map_err(|error| failed(&error))?;
     eprintln!("{written} messages written to {}", path.display());
     Ok(warn(&source))
-}
-
-/// A batch of a file holds what happened up to its end, and at it.
-fn just_after(end: SimTime) -> SimTime {
-    end + 1
 }
 
 fn is_same(one: &Path, other: &Path) -> bool {

@@ -78,6 +78,7 @@ fn live(source: &mut Source) -> Result<(SimTime, Vec<Listed>), Failure> {
     while first.is_none_or(|(since, ..)| since.elapsed() < LOOK) {
         match source.next()? {
             Heard::Window(window) => {
+                source.taken();
                 if let Some(counts) = window.counts {
                     first.get_or_insert((Instant::now(), window.to, counts));
                     last = Some((Instant::now(), window.to, counts));
@@ -120,6 +121,7 @@ fn recorded(source: &mut Source) -> Result<(SimTime, Vec<Listed>), Failure> {
     loop {
         match source.next()? {
             Heard::Window(window) => {
+                source.taken();
                 to = to.max(window.to);
                 window.rows.iter().for_each(|row: &Row| add(row.topic(), 1));
             }

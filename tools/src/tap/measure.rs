@@ -41,10 +41,18 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
     let choice = Choice::new(&args.choice, topic)?;
     let mut source = Source::open(&args.origin, &[topic])?;
     let mut left = args.choice.limit();
-    let mut period = Period::new(measure, None);
+    let mut period = Period::new(measure);
+    period.from =
+        args.origin.from.filter(|_| !is_live).map(|from| SimTime::from_ns((from * 1e9).round() as i64));
     loop {
         match source.next()? {
-            Heard::Window(window) => period.take(&window, topic, &choice),
+            Heard::Window(window) => {
+                let before = period.messages.count;
+                period.take(&window, topic, &choice);
+                if period.messages.count > before {
+                    source.taken();
+                }
+            }
             Heard::Nothing => {}
             Heard::End => break,
         }
@@ -56,7 +64,7 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
             if left == 0 {
                 return Ok(warn(&source));
             }
-            period = Period::new(measure, period.to);
+            period = period.next();
         }
     }
     // What is left of a live run is less than a second, and of a record all of it.
@@ -70,6 +78,8 @@ pub fn measure(args: &TapArgs, topic: Topic, measure: Measure) -> Result<Exit, F
 struct Period {
     measure: Measure,
     began: Instant,
+    /// When the last window came.
+    arrived: Option<Instant>,
     from: Option<SimTime>,
     to: Option<SimTime>,
     latest: Option<SimTime>,
@@ -83,24 +93,36 @@ struct Period {
 }
 
 impl Period {
-    fn new(measure: Measure, from: Option<SimTime>) -> Self {
+    fn new(measure: Measure) -> Self {
         let [messages, intervals, transport, telling] = [Spread::default(); 4];
-        let began = Instant::now();
-        Self { measure, began, from, to: from, latest: None, messages, intervals, transport, telling }
+        let (began, arrived, from, to, latest) = (Instant::now(), None, None, None, None);
+        Self { measure, began, arrived, from, to, latest, messages, intervals, transport, telling }
+    }
+
+    /// The one that follows at once.
+    fn next(&self) -> Self {
+        let began = self.arrived.unwrap_or(self.began);
+        Self { began, from: self.to, to: self.to, latest: self.latest, ..Self::new(self.measure) }
     }
 
     fn is_over(&self) -> bool {
-        self.began.elapsed() >= PERIOD
+        self.to > self.from && self.began.elapsed() >= PERIOD
     }
 
     fn take(&mut self, window: &Window, topic: Topic, choice: &Choice) {
+        let now = Instant::now();
+        self.arrived = Some(now);
+        if window.published.is_some() && self.from.is_none() {
+            // A live run is measured from the end of the first window on.
+            (self.began, self.from, self.to) = (now, Some(window.to), Some(window.to));
+            return;
+        }
         let transport = window.published.and_then(|at| SystemTime::now().duration_since(at).ok());
         for row in window.rows.iter().filter(|row| row.topic() == topic) {
             if choice.takes(row).is_none() {
                 continue;
             }
             let at = row.at();
-            self.from.get_or_insert(at);
             if let Some(before) = self.latest.replace(at) {
                 self.intervals.add((at - before) as f64 / 1e9);
             }
@@ -112,7 +134,8 @@ impl Period {
                 self.telling.add((window.to - at) as f64 / 1e9);
             }
         }
-        self.from.get_or_insert(window.to);
+        // A record is measured from its beginning, or from where it was asked to.
+        self.from.get_or_insert(SimTime::ZERO);
         self.to = Some(window.to);
     }
 
@@ -120,7 +143,10 @@ impl Period {
         let to_s = self.to.map_or(0.0, SimTime::as_s);
         let sim_s = to_s - self.from.map_or(0.0, SimTime::as_s);
         let per_sim_s = |amount: f64| (sim_s > 0.0).then(|| amount / sim_s);
-        let per_s = |amount: f64| is_live.then(|| amount / self.began.elapsed().as_secs_f64());
+        let per_s = |amount: f64| {
+            let wall_s = self.arrived.map_or(0.0, |arrived| (arrived - self.began).as_secs_f64());
+            (is_live && wall_s > 0.0).then(|| amount / wall_s)
+        };
         let messages = self.messages.count;
         if args.form.json {
             let (name, figures) = match self.measure {
@@ -140,11 +166,11 @@ impl Period {
                     ("delay", json!({ "arrival_s": self.transport.json(), "telling_s": self.telling.json() }))
                 }
             };
-            let mut line = figures;
-            line["format"] = format!("shoal.tap.{name}/1").into();
-            line["topic"] = topic.name().into();
-            line["t_s"] = to_s.into();
-            line["messages"] = messages.into();
+            let mut line = json!({ "format": format!("shoal.tap.{name}/1"), "topic": topic.name(), "t_s": to_s,
+                "messages": messages });
+            if let (Value::Object(line), Value::Object(figures)) = (&mut line, figures) {
+                line.extend(figures);
+            }
             return format!("{line}\n");
         }
         let figures = match self.measure {

@@ -202,12 +202,14 @@ fn columns(topic: Topic) -> Result<Vec<String>, Failure> {
 }
 
 /// With the format and the topic, unless it has a format of its own.
-fn labelled(mut json: Value, topic: Topic) -> Value {
-    if let Value::Object(fields) = &mut json {
-        fields.entry("format").or_insert_with(|| FORMAT.into());
-        fields.entry("topic").or_insert_with(|| topic.name().into());
+fn labelled(json: Value, topic: Topic) -> Value {
+    let mut labelled = serde_json::Map::new();
+    labelled.insert("format".to_owned(), FORMAT.into());
+    labelled.insert("topic".to_owned(), topic.name().into());
+    if let Value::Object(fields) = json {
+        labelled.extend(fields);
     }
-    json
+    labelled.into()
 }
 
 /// A value without quotes; nothing for what is not there.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
+use shoal_bus::os::give_way;
 use shoal_bus::record::{Row, Topic};
 use shoal_bus::run_dir::RunDir;
 use shoal_bus::summary::Summary;
@@ -28,7 +29,8 @@ pub struct Source {
     end: Option<SimTime>,
     duration_ns: Option<i64>,
     timeout: Option<Duration>,
-    last_row: Instant,
+    /// When there was last a message that the user wants to know of.
+    last_taken: Instant,
     summary: Option<Box<Summary>>,
 }
 
@@ -66,7 +68,11 @@ impl Source {
         let ns = |seconds: f64| (seconds * 1e9).round() as i64;
         let from = match &args.read {
             Some(path) => From::File(FileSource::open(path, topics)?),
-            None => From::Live(Box::new(live::attach(args, topics)?)),
+            None => {
+                // The run has the first word where processors are scarce. A system that refuses is no reason not to look.
+                let _refused = give_way();
+                From::Live(Box::new(live::attach(args, topics)?))
+            }
         };
         Ok(Self {
             from,
@@ -75,7 +81,7 @@ impl Source {
             end: args.to.map(|to| SimTime::from_ns(ns(to))),
             duration_ns: args.duration.map(ns),
             timeout: args.timeout.map(Duration::from_secs_f64),
-            last_row: Instant::now(),
+            last_taken: Instant::now(),
             summary: None,
         })
     }
@@ -102,14 +108,9 @@ impl Source {
         }
         let (begin, end) = (self.begin, self.end);
         window.rows.retain(|row| row.at() >= begin && end.is_none_or(|end| row.at() <= end));
-        if !window.rows.is_empty() {
-            self.last_row = Instant::now();
-        } else if self.end.is_some_and(|end| window.to > end) {
-            return Ok(Heard::End);
-        } else {
-            self.patience()?;
-        }
-        Ok(Heard::Window(window))
+        self.patience()?;
+        let is_past = window.rows.is_empty() && end.is_some_and(|end| window.to > end);
+        Ok(if is_past { Heard::End } else { Heard::Window(window) })
     }
 
     fn receive(&mut self) -> Result<Heard, Failure> {
@@ -141,9 +142,14 @@ impl Source {
         }
     }
 
+    /// Tells that there was something for the user: `--timeout` begins anew.
+    pub fn taken(&mut self) {
+        self.last_taken = Instant::now();
+    }
+
     fn patience(&self) -> Result<(), Failure> {
         match self.timeout {
-            Some(timeout) if self.last_row.elapsed() >= timeout => {
+            Some(timeout) if self.last_taken.elapsed() >= timeout => {
                 Err(Failure::failed(format!("no message came within --timeout {} s", timeout.as_secs_f64())))
             }
             _ => Ok(()),

@@ -54,6 +54,7 @@ fn follow(
     left: &mut u64,
 ) -> Result<(), Ended> {
     let mut print = |rows: Vec<Row>| {
+        let before = *left;
         for row in rows.iter().filter(|row| row.topic() == topic) {
             if *left == 0 {
                 return Err(Ended::Quietly);
@@ -64,25 +65,30 @@ fn follow(
             }
         }
         printer.flush()?;
-        if *left == 0 { Err(Ended::Quietly) } else { Ok(()) }
+        // Whether there was anything.
+        if *left == 0 { Err(Ended::Quietly) } else { Ok(*left < before) }
     };
     if matches!(topic, Topic::Auvs | Topic::Born) {
         let cast = source.await_cast()?;
-        return print(cast.map(|cast| of_cast(cast, topic)).unwrap_or_default());
+        return print(cast.map(|cast| of_cast(cast, topic)).unwrap_or_default()).map(drop);
     }
     loop {
         match source.next()? {
-            Heard::Window(window) => print(window.rows)?,
-            Heard::Nothing => print(Vec::new())?,
+            Heard::Window(window) => {
+                if print(window.rows)? {
+                    source.taken();
+                }
+            }
+            Heard::Nothing => {}
             Heard::End => break,
         }
     }
     match source.summary() {
         // In a record it is a message like any other.
         Some(summary) if topic == Topic::Summary && source.run().is_some() => {
-            print(vec![Row::Summary(Box::new(summary.clone()))])
+            print(vec![Row::Summary(Box::new(summary.clone()))]).map(drop)
         }
-        _ => print(Vec::new()),
+        _ => Ok(()),
     }
 }
 

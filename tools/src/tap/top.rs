@@ -44,7 +44,10 @@ fn as_tables(args: &TapArgs, source: &mut Source, roster: &mut Roster) -> Result
         |roster: &Roster| if args.form.json { roster.json_lines() } else { roster.table(stdout_columns()) };
     loop {
         match source.next()? {
-            Heard::Window(window) => roster.take(&window, source.cast()),
+            Heard::Window(window) => {
+                roster.take(&window, source.cast());
+                source.taken();
+            }
             Heard::Nothing => {}
             Heard::End => break,
         }
@@ -71,7 +74,10 @@ fn on_screen(source: &mut Source, roster: &mut Roster) -> Result<(), Failure> {
     loop {
         if !is_over {
             match source.next()? {
-                Heard::Window(window) => roster.take(&window, source.cast()),
+                Heard::Window(window) => {
+                    roster.take(&window, source.cast());
+                    source.taken();
+                }
                 Heard::Nothing => {}
                 Heard::End if source.is_stopped() => return Ok(()),
                 Heard::End => is_over = true,

@@ -220,7 +220,7 @@ export class Charts {
       ['widest box', length(last.width_max_m)],
       ['median clock interval', duration(last.clock_s)],
       ['boxes and clocks that miss the truth', misses === 0 ? 'none' : misses.toLocaleString('en'), misses === 0 ? 'good' : 'bad'],
-      ['components in range', last.components ?? '\u2013'],
+      ['components in range', past.findLast(({ components }) => components !== null)?.components ?? '\u2013'],
       ['pings emitted', emitted.toLocaleString('en')],
     ] : []);
     const fates = FATES.map((_, fate) => past.reduce((sum, of) => sum + of.fates[fate], 0));

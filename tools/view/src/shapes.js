@@ -249,8 +249,8 @@ const WAVE_FRAGMENT = `
 
 /** Wavefronts: the outlines of growing spheres. */
 export class Waves extends Copies {
-  constructor(limit) {
-    super(limit, circle(44), WAVE_VERTEX, WAVE_FRAGMENT, { renderOrder: 3, material: { depthWrite: false } });
+  constructor(limit, sides) {
+    super(limit, circle(sides), WAVE_VERTEX, WAVE_FRAGMENT, { renderOrder: 3, material: { depthWrite: false } });
   }
 
   glow(dark) {

@@ -43,7 +43,7 @@ export class Stage {
     this.boxes = new Segments(12 * (auvs + 2 * TUBE_BOXES) + 1300, 2);
     this.linksDrawn = antialias ? LINKS_DRAWN_MAX : LINKS_DRAWN_SOFTWARE;
     this.links = new Segments(this.linksDrawn + auvs, 1);
-    this.waves = new Waves(WAVES_MAX);
+    this.waves = auvs > 100 ? new Waves(WAVES_MAX, 44) : new Waves(WAVES_MAX / 4, 128);
     this.frame = new Segments(400, 0);
     this.objects = {
       frame: this.frame.object,
@@ -250,7 +250,7 @@ export class Stage {
     this.waves.uniforms.pixel.value = pixel;
     renderer.setScissorTest(true);
     const lit = Object.fromEntries(Object.entries(objects).map(([name, object]) => [name, object.visible]));
-    for (const [index, pane] of (panes ? PANES : [{ layers: null }]).entries()) {
+    for (const [index, pane] of (panes ? PANES : [{ layers: null, bodies: 1 }]).entries()) {
       const [left, top] = panes ? [(index % 2) * across, Math.floor(index / 2) * down] : [0, 0];
       this.bodies.uniforms.least.value = this.least * pane.bodies;
       renderer.setViewport(left, height - top - down, across, down);

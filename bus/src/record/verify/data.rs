@@ -78,7 +78,7 @@ impl Data {
                     self.statistics.metadata_count += 1;
                     let sum = of_metadata(frame.offset, frame.end - frame.offset, &metadata.name);
                     self.indexed.push((frame.offset, Some(sum)));
-                    self.meaning.take_metadata(&metadata.name, metadata.metadata, frame);
+                    self.meaning.take_metadata(&metadata.name, metadata.metadata);
                 }
                 Ok(Record::Attachment { header, data, .. }) => {
                     self.statistics.attachment_count += 1;

@@ -44,7 +44,12 @@ impl Meaning {
         self.run.get("format").and_then(|format| format.parse().ok())
     }
 
-    pub(super) fn take_metadata(&mut self, name: &str, entries: BTreeMap<String, String>, _: &Frame) {
+    /// The digest, and whether scenario and seed determine it.
+    pub(super) fn digest(&self) -> Option<(String, bool)> {
+        self.summary.as_ref().map(|told| (told.digest.clone(), told.reproducible))
+    }
+
+    pub(super) fn take_metadata(&mut self, name: &str, entries: BTreeMap<String, String>) {
         match name {
             METADATA_RUN => self.run = entries,
             METADATA_OUTCOME => self.outcome = entries,
