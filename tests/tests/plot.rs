@@ -91,6 +91,6 @@ fn what_cannot_be_drawn_is_refused() {
     refused("plot nowhere.mcap losses", 1, "nowhere.mcap: ");
     refused("plot Cargo.toml losses", 1, "Cargo.toml: this is not an MCAP file");
     refused("plot nowhere.mcap lost", 2, "losses");
-    refused("plot nowhere.mcap losses --auv 3", 2, "--auv is for `tubes` and `widths`");
+    refused("plot nowhere.mcap losses --auv 3", 2, "--auv is for `tubes`, `widths` and `paving`");
     refused("plot nowhere.mcap map --at-s soon", 2, "give seconds of true time");
 }
