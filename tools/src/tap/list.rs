@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-use shoal_bus::record::{Row, Topic};
+use shoal_bus::record::{BATCH_NS, Row, Topic};
 use shoal_bus::tap::{Counts, LiveTopic};
 use shoal_bus::time::SimTime;
 
@@ -112,7 +112,7 @@ fn live(source: &mut Source) -> Result<(SimTime, Vec<Listed>), Failure> {
 /// Counts what stands in the record.
 fn recorded(source: &mut Source) -> Result<(SimTime, Vec<Listed>), Failure> {
     let mut counts = Topic::ALL.map(|topic| (topic, 0_u64));
-    let mut to = SimTime::ZERO;
+    let (mut from, mut to) = (None, SimTime::ZERO);
     let mut add = |topic: Topic, more: u64| {
         if let Some((_, count)) = counts.iter_mut().find(|(counted, _)| *counted == topic) {
             *count += more;
@@ -122,6 +122,7 @@ fn recorded(source: &mut Source) -> Result<(SimTime, Vec<Listed>), Failure> {
         match source.next()? {
             Heard::Window(window) => {
                 source.taken();
+                from.get_or_insert(window.to.ns() - BATCH_NS);
                 to = to.max(window.to);
                 window.rows.iter().for_each(|row: &Row| add(row.topic(), 1));
             }
@@ -133,7 +134,7 @@ fn recorded(source: &mut Source) -> Result<(SimTime, Vec<Listed>), Failure> {
         add(Topic::Auvs, 1);
         add(Topic::Born, cast.born.len() as u64);
     }
-    let seconds = to.as_s();
+    let seconds = (to.ns() - from.unwrap_or(0).max(0)) as f64 / 1e9;
     let listed = counts.into_iter().filter(|(_, messages)| *messages > 0).map(|(topic, messages)| {
         let is_stream = !matches!(topic, Topic::Auvs | Topic::Born | Topic::Summary | Topic::Offline);
         let sim_hz = (is_stream && seconds > 0.0).then(|| messages as f64 / seconds);

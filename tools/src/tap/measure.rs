@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant, SystemTime};
 
 use serde_json::{Value, json};
-use shoal_bus::record::Topic;
+use shoal_bus::record::{BATCH_NS, Topic};
 use shoal_bus::time::SimTime;
 
 use super::args::TapArgs;
@@ -134,8 +134,8 @@ impl Period {
                 self.telling.add((window.to - at) as f64 / 1e9);
             }
         }
-        // A record is measured from its beginning, or from where it was asked to.
-        self.from.get_or_insert(SimTime::ZERO);
+        // A record is measured from the first batch with such messages, or from where it was asked to.
+        self.from.get_or_insert(SimTime::from_ns((window.to.ns() - BATCH_NS).max(0)));
         self.to = Some(window.to);
     }
 

@@ -164,3 +164,44 @@ fn fitting(widths: &[usize], columns: usize) -> usize {
     };
     widths.iter().enumerate().take_while(fits).count().max(1)
 }
+
+#[cfg(test)]
+mod tests {
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use shoal_bus::message::AuvId;
+    use shoal_bus::record::Row;
+    use shoal_bus::record::rows::PingRow;
+    use shoal_bus::traffic::{Fate, Traffic};
+
+    use super::*;
+    use crate::tap::source::Window;
+
+    #[test]
+    fn lines_scroll_and_columns_that_do_not_fit_are_left_out() {
+        let emitted = Fate::Emitted {
+            position_m: [0.0; 3],
+            bytes: 31,
+            box_width_m: 1.0,
+            beyond_range: 0,
+            packet_s: 0.0,
+        };
+        let ping = |auv| Traffic { at: SimTime::ZERO, from: AuvId(auv), sequence: 0, fate: emitted.clone() };
+        let rows = (0..9).map(|auv| Row::Ping(PingRow::new(&ping(auv)))).collect();
+        let mut roster = Roster::new(Sort::Auv);
+        roster.take(&Window { to: SimTime::ZERO, rows, counts: None, published: None }, None);
+        let mut view = View { scrolled: usize::MAX, has_colour: false };
+        let mut shown = |columns: u16| {
+            let mut terminal = Terminal::new(TestBackend::new(columns, 6)).unwrap();
+            terminal.draw(|frame| view.draw(frame, "a title", &roster)).unwrap();
+            (terminal.backend().to_string(), view.scrolled)
+        };
+        let (wide, scrolled) = shown(110);
+        assert_eq!(scrolled, 6, "{wide}");
+        assert!(wide.contains("a title") && wide.contains("emitted") && wide.contains("state"), "{wide}");
+        assert!(wide.contains("\n\"  8 ") && !wide.contains("\n\"  5 "), "{wide}");
+        let (narrow, _) = shown(30);
+        assert!(narrow.contains("box m") && !narrow.contains("neighbours"), "{narrow}");
+        assert!(shown(1).0.contains('a'));
+    }
+}
