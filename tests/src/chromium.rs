@@ -153,7 +153,7 @@ impl Chromium {
     /// # Panics
     /// When the browser or the disk refuses.
     pub fn small_picture(&mut self, name: &str) -> PathBuf {
-        self.keep(&format!("{name}.webp"), json!({ "format": "webp", "quality": 82 }))
+        self.keep(&format!("{name}.webp"), json!({ "format": "webp", "quality": 78 }))
     }
 
     /// What has gone wrong on the page so far: exceptions, and what its own policy refused.

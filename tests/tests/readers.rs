@@ -26,7 +26,7 @@ fn json(output: &Output) -> Value {
 /// Records that have messages on every topic between them.
 fn records(folder: &Path) -> Vec<PathBuf> {
     let record = |name: &str| folder.join(name);
-    Command::new("run swarm-3 --duration 10 --record").with(record("whole.mcap")).json();
+    Command::new("run swarm-3 --duration 4 --record").with(record("whole.mcap")).json();
     Command::new("run")
         .with(scenario_file("lying-ping"))
         .and("--bus local --record")
@@ -100,6 +100,24 @@ fn rerun_accepts_a_record() {
         let verified = run(&[rrd, verify, &converted]);
         assert!(std::fs::metadata(&converted).unwrap().len() > 10_000, "{verified}");
     }
+}
+
+#[test]
+fn the_example_shows_a_run_in_rerun() {
+    let Some(python) = python("mcap, zstandard, rerun") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [record, shown] = ["run.mcap", "run.rrd"].map(|name| folder.path().join(name));
+    Command::new("run swarm-3 --duration 5 --bus local --record").with(&record).json();
+    let script = workspace().join("tools/examples/rerun_run.py");
+    let output = python(&[&script, &record, Path::new("--save"), &shown]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let verified = std::process::Command::new("rerun")
+        .args([Path::new("rrd"), Path::new("verify"), &shown])
+        .env("HOME", folder.path())
+        .output()
+        .unwrap();
+    assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stderr));
+    assert!(std::fs::metadata(&shown).unwrap().len() > 10_000);
 }
 
 #[test]

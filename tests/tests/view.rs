@@ -142,7 +142,6 @@ fn the_swarm_is_seen_in_layers_and_panes() {
 
     // Okabe and Ito's sky blue, bluish green and vermilion are there.
     let all = page.picture("swarm-1000-layers");
-    page.small_picture("view-layers");
     let colours = [[86, 180, 233], [0, 158, 115], [213, 94, 0]];
     for colour in colours {
         let seen = pixels(&mut page, &all, colour);

@@ -12,6 +12,7 @@
 //! | `tubes.rs` | what is known of one AUV: without pings, online, offline |
 //! | `widths.rs` | how wide enclosures are, over time |
 //! | `map.rs` | where everyone is and believes to be, at one moment |
+//! | `paving.rs` | where the last pings let one AUV be, at one moment |
 //! | `links.rs` | who hears whom, at one moment and over time |
 //!
 //! Each is a [`Plot`]: it takes the rows of the record one by one and ends as a figure. What it keeps does not grow with the
@@ -25,6 +26,7 @@ mod groups;
 mod links;
 mod losses;
 mod map;
+mod paving;
 mod ranges;
 mod rays;
 mod reach;
@@ -66,10 +68,10 @@ pub struct PlotArgs {
 /// What of the run to draw.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct Of {
-    /// For `tubes` and `widths`: of which AUV, counted from 0
+    /// For `tubes`, `widths` and `paving`: of which AUV, counted from 0
     #[arg(long, value_name = "N")]
     pub auv: Option<u32>,
-    /// For `map` and `links`: at which true time in seconds; at the end of the record unless given
+    /// For `map`, `links` and `paving`: at which true time in seconds; at the end of the record unless given
     #[arg(long, value_name = "SECONDS", value_parser = parse_moment)]
     pub at_s: Option<f64>,
     /// For `rays`: depth of the source in metres; that of the first ping unless given
@@ -116,6 +118,8 @@ pub enum Kind {
     Map,
     /// Who hears whom, at one moment and over time
     Links,
+    /// Where the last pings that one AUV heard let it be, at one moment: rings, and the sub-paving of what lies in all of them
+    Paving,
 }
 
 /// A figure in the making.
@@ -135,8 +139,18 @@ pub fn plot(args: &PlotArgs) -> Result<Exit, Failure> {
     let flags: [(&str, bool, &[Kind], &str); 4] = [
         ("--depth-m", args.of.depth_m.is_some(), &[Kind::Rays], "`rays`"),
         ("--range-m", args.of.range_m.is_some(), &[Kind::Rays], "`rays`"),
-        ("--auv", args.of.auv.is_some(), &[Kind::Tubes, Kind::Widths], "`tubes` and `widths`"),
-        ("--at-s", args.of.at_s.is_some(), &[Kind::Map, Kind::Links], "`map` and `links`"),
+        (
+            "--auv",
+            args.of.auv.is_some(),
+            &[Kind::Tubes, Kind::Widths, Kind::Paving],
+            "`tubes`, `widths` and `paving`",
+        ),
+        (
+            "--at-s",
+            args.of.at_s.is_some(),
+            &[Kind::Map, Kind::Links, Kind::Paving],
+            "`map`, `links` and `paving`",
+        ),
     ];
     if let Some((flag, _, _, names)) =
         flags.iter().find(|(_, is_given, kinds, _)| *is_given && !kinds.contains(&args.kind))
@@ -175,6 +189,7 @@ pub fn plot_of(kind: Kind, of: &Of) -> Box<dyn Plot> {
         Kind::Widths => Box::new(widths::Widths::new(of.auv)),
         Kind::Map => Box::new(map::Map::new(of.at_s)),
         Kind::Links => Box::new(links::Links::new(of.at_s)),
+        Kind::Paving => Box::new(paving::Paving::new(of.auv.unwrap_or(0), of.at_s)),
     }
 }
 

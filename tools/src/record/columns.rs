@@ -359,3 +359,50 @@ pub fn object(topic: Topic, row: &Value) -> Value {
         .collect();
     Value::Object(members)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_numbers_have_units() {
+        for topic in Topic::ALL {
+            let mut names: Vec<&str> = columns(topic).iter().map(|column| column.0).collect();
+            names.sort_unstable();
+            assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{topic:?}: {names:?}");
+            assert!(columns(topic).iter().all(|column| column.1.starts_with('/')));
+            let bounds = names.iter().filter(|name| name.contains("lower") || name.contains("upper"));
+            assert!(bounds.into_iter().all(|name| name.ends_with("_m") || name.ends_with("_s")), "{names:?}");
+        }
+    }
+
+    #[test]
+    fn what_was_sensed_is_a_row_each() {
+        let tick = json!({"t_ns": 5, "auv": 1, "tick": 2, "stamp": 6, "events": [
+            {"stamp": 3, "sense": {"Depth": {"depth_m": {"value": 12.5, "error": 0.1}}}},
+            {"stamp": 4, "sense": {"Heard": {"frame": [1, 255]}}},
+            {"stamp": 5, "sense": "Held"},
+        ]});
+        let rows = rows(Topic::Sensed, tick);
+        let text: Vec<String> = rows.iter().map(|row| object(Topic::Sensed, row).to_string()).collect();
+        assert_eq!(
+            text,
+            [
+                r#"{"t_ns":5,"auv":1,"tick":2,"local_ns":6,"event_local_ns":3,"kind":"depth","depth_m":12.5,"depth_error_m":0.1}"#,
+                r#"{"t_ns":5,"auv":1,"tick":2,"local_ns":6,"event_local_ns":4,"kind":"heard","frame":"01ff"}"#,
+                r#"{"t_ns":5,"auv":1,"tick":2,"local_ns":6,"event_local_ns":5,"kind":"held"}"#,
+            ]
+        );
+        let silent = super::rows(Topic::Sensed, json!({"t_ns": 5, "events": []}));
+        assert_eq!(silent.len(), 1);
+    }
+
+    #[test]
+    fn what_is_nested_becomes_keys_with_dots() {
+        let rows = rows(Topic::Summary, json!({"pings": {"lost": {"late": 3}}, "groups": [{"name": "a"}]}));
+        assert_eq!(
+            rows,
+            [json!({"key": "pings.lost.late", "value": 3}), json!({"key": "groups.0.name", "value": "a"})]
+        );
+    }
+}

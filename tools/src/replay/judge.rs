@@ -235,3 +235,86 @@ fn holds(row: &ReportRow, truth: &TruthRow) -> bool {
 fn offset_s(at: SimTime, local: LocalTime) -> f64 {
     (at.ns() - local.ns()) as f64 * 1e-9
 }
+
+#[cfg(test)]
+mod tests {
+    use shoal_bus::message::{Acted, Bounds, Report, Setpoint, Slice};
+
+    use super::*;
+
+    const NS: i64 = 1_000_000_000;
+
+    /// A report at whole seconds of a box around the origin, so wide.
+    fn row(tick: u64, width: f64) -> ReportRow {
+        let side = Bounds::new(-0.5 * width, 0.5 * width);
+        let (position_m, clock_offset_s) = ([side; 3], Bounds::new(-1e-3, 1e-3));
+        let report = Report {
+            position_m,
+            clock_offset_s,
+            slice: Slice { position_m, clock_offset_s },
+            emptied: None,
+            neighbours: 0,
+            contractions: 0,
+            rejected: 0,
+            around: Vec::new(),
+            components: 1,
+            gaussian: None,
+        };
+        let acted = Acted { tick, setpoint: Setpoint::default(), pings: Vec::new(), report };
+        let at = tick as i64 * NS;
+        ReportRow::new(SimTime::from_ns(at), AuvId(0), Some(LocalTime::from_ns(at)), &acted)
+    }
+
+    fn truth(tick: u64) -> TruthRow {
+        let at = tick as i64 * NS;
+        TruthRow {
+            auv: AuvId(0),
+            tick,
+            t_ns: SimTime::from_ns(at),
+            local_ns: LocalTime::from_ns(at),
+            position_m: [Real(1.0); 3],
+            velocity_m_s: [Real(0.0); 3],
+            heading_rad: Real(0.0),
+            pitch_rad: Real(0.0),
+        }
+    }
+
+    fn judge() -> Judge {
+        let mut judge = Judge::new(&[], &[], None, true);
+        judge.auvs.insert(AuvId(0), Found { promises: true, ..Found::default() });
+        judge
+    }
+
+    fn batch(reports: Vec<ReportRow>) -> Telling {
+        let truth = reports.iter().map(|row| truth(row.tick)).collect();
+        let mut telling = Telling::default();
+        (telling.reports, telling.truth) = (reports, truth);
+        telling
+    }
+
+    #[test]
+    fn what_differs_is_counted_and_the_first_is_named() {
+        let mut judge = judge();
+        let recorded = vec![row(1, 4.0), row(2, 4.0), row(3, f64::INFINITY), row(4, 4.0)];
+        let replayed = vec![row(1, 4.0), row(2, 5.0), row(3, f64::INFINITY), row(4, 1.0)];
+        judge.take(&batch(recorded), vec![(AuvId(0), replayed)]);
+        let found = &judge.auvs[&AuvId(0)];
+        assert_eq!((found.answers, found.differing), (4, 2));
+        let first = found.first.as_ref().unwrap();
+        assert_eq!((first.t_s, first.tick, first.field.as_str()), (2.0, 2, "position_m[0][0]"));
+        assert_eq!((found.position.ticks, found.position.wider, found.position.narrower), (3, 1, 1));
+        assert_eq!(found.position.means().map(|means| means.map(|mean| mean * 3.0)), Some([12.0, 10.0]));
+        // The truth is a metre off on each axis: a box of one metre has lost it, an unbounded one holds everything.
+        assert_eq!((found.checks, found.held, found.lost), (4, [4, 3], 1));
+    }
+
+    #[test]
+    fn an_answer_waits_for_its_counterpart() {
+        let mut judge = judge();
+        judge.take(&batch(Vec::new()), vec![(AuvId(0), vec![row(1, 4.0), row(2, 4.0), row(3, 4.0)])]);
+        assert_eq!(judge.auvs[&AuvId(0)].answers, 0);
+        // The second was never answered in the run.
+        judge.take(&batch(vec![row(1, 4.0), row(3, 4.0)]), Vec::new());
+        assert_eq!((judge.auvs[&AuvId(0)].answers, judge.auvs[&AuvId(0)].differing), (2, 0));
+    }
+}

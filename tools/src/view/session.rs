@@ -14,14 +14,11 @@ use serde_json::json;
 use tungstenite::{Error, Message, WebSocket};
 
 use super::cast::Cast;
-use super::chunk::TrackPart;
+use super::chunk::{ROW_BYTES, TrackPart};
 use super::store::{Reached, Store};
 
 /// How often a page is told how far it is.
 const NEWS: Duration = Duration::from_millis(100);
-
-/// Bytes of a row of a track.
-const ROW_BYTES: usize = super::chunk::ROW_BYTES;
 
 /// What a page asks for.
 #[derive(Debug, Deserialize)]

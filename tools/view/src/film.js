@@ -21,8 +21,7 @@ export class Film {
   /** How far the server has come. */
   reach({ first, end, done, figures }) {
     Object.assign(this, { first, end, done });
-    this.figures.push(...figures);
-    this.figures = this.figures.filter(({ second }) => second >= first);
+    this.figures = this.figures.concat(figures).filter(({ second }) => second >= first);
   }
 
   take(second, buffer, offset) {

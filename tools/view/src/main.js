@@ -43,7 +43,7 @@ function begin(told) {
   const diagonal = area ? Math.hypot(...area.map(([low, high]) => high - low)) : 1000;
   const reach = groupOf.map((group) => groups[group].range_m ?? 0.75 * diagonal);
   cast = {
-    ...told, groupOf, length: bodies, reach, reachMax: Math.max(...reach, 1), soundSpeed: told.sound_speed_m_s,
+    ...told, groupOf, length: bodies, reach, reachMax: reach.reduce((one, other) => Math.max(one, other), 1), soundSpeed: told.sound_speed_m_s,
   };
   film = new Film(source);
   moment = new Moment(names.length);
@@ -310,7 +310,7 @@ function tell(now) {
   find('now').textContent = state.t.toFixed(state.rate < 0.1 ? 3 : 2);
   find('scrub').value = state.t;
   find('scrub').setAttribute('aria-valuetext', `${state.t.toFixed(1)} s`);
-  if (state.playing && !charts.stale && now - slow < 250) {
+  if (!charts.stale && now - slow < 250) {
     later();
     return;
   }
@@ -351,7 +351,7 @@ function strip() {
   pen.globalAlpha = 0.18;
   pen.fillRect(0, 0, x(film.end), height);
   const widths = film.figures.map(({ width_m: median }) => median ?? 0);
-  const most = Math.max(...widths, 1e-9);
+  const most = widths.reduce((one, other) => Math.max(one, other), 1e-9);
   pen.globalAlpha = 0.4;
   pen.fillStyle = charts.accent;
   film.figures.forEach(({ second, misses }, index) => {

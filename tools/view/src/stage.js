@@ -169,7 +169,7 @@ export class Stage {
     this.fillLinks(moment, film, view);
     this.waves.count = 0;
     if (layers.waves) {
-      const crowd = Math.min(1, Math.max(0.25, 110 / Math.max(1, this.counts.waves)));
+      const crowd = Math.min(1, Math.max(0.3, 150 / Math.max(1, this.counts.waves)));
       wavefronts(film, moment.t, cast, glow, (x, y, z, radius, from, strength) => {
         if (!visible[from]) return;
         const [r, g, b] = colours[cast.groupOf[from]];

@@ -169,13 +169,9 @@ impl Data {
                     self.meaning.take_message(topic, &header, &data, frame, visit)?;
                 }
                 Record::Schema { header, data } => {
-                    if self
-                        .described
-                        .insert((op::SCHEMA, header.id), of_schema(&header.name, &header.encoding, &data))
-                        .is_none()
-                    {
-                        self.statistics.schema_count += 1;
-                    }
+                    let sum = of_schema(&header.name, &header.encoding, &data);
+                    let is_new = self.described.insert((op::SCHEMA, header.id), sum).is_none();
+                    self.statistics.schema_count += u16::from(is_new);
                 }
                 Record::Channel(channel) => {
                     if self.described.insert((op::CHANNEL, channel.id), of_channel(&channel)).is_none() {

@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_changed_byte_is_found() {
-        let bytes: Vec<u8> = (0..5_000_u32).map(|index| (index * index >> 3) as u8).collect();
+        let bytes: Vec<u8> = (0..5_000_u32).map(|index| ((index * index) >> 3) as u8).collect();
         let stated = crc32fast::hash(&bytes);
         for (at, bits) in [(0, 1), (1, 0x80), (2_500, 0x10), (4_999, 0xa5), (4_998, 0xff)] {
             let mut bad = bytes.clone();
