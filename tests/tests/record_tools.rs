@@ -83,7 +83,7 @@ fn cat_prints_events_as_lines_of_json() {
     let far = far.succeeded().json_lines();
     assert!(!far.is_empty() && far.iter().all(|ping| ping["range_m"].as_f64().unwrap() > 400.0));
     // Every message of every topic.
-    assert!(of("record cat", &record).succeeded().json_lines().len() > 1_000);
+    assert!(of("record cat", &record).succeeded().json_lines().len() > 500);
 }
 
 #[test]
@@ -159,11 +159,17 @@ fn tables_have_documented_columns_with_units() {
     }
     assert_eq!(tables, 9);
     // The same numbers, digit by digit, in both forms.
-    let rows = of("record export --topic ticks --format jsonl", &fixture.record()).succeeded().json_lines();
+    let lines = of("record export --topic ticks --format jsonl --auv 1 --count 1", &fixture.record())
+        .succeeded()
+        .stdout;
     let csv = of("record export --topic ticks --auv 1 --count 1", &fixture.record()).succeeded().stdout;
-    let first = rows.iter().find(|row| row["auv"] == 1).unwrap();
-    let cells: Vec<String> = csv.lines().nth(1).unwrap().split(',').map(str::to_owned).collect();
-    let values: Vec<String> = first.as_object().unwrap().values().map(Value::to_string).collect();
+    let cells: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
+    let values: Vec<&str> = lines
+        .trim()
+        .trim_end_matches('}')
+        .split(',')
+        .map(|member| member.split(':').nth(1).unwrap())
+        .collect();
     assert_eq!(cells, values);
 }
 
@@ -220,18 +226,18 @@ fn verify_finds_a_record_that_tells_another_story() {
 #[test]
 fn recover_brings_back_what_was_flushed() {
     let fixture = fixture();
-    let cut = fixture.file("half.mcap", &fixture.bytes[..fixture.bytes.len() * 2 / 3]);
+    let cut = fixture.file("half.mcap", &fixture.bytes[..fixture.bytes.len() / 2]);
     let finished = of("record recover", &cut).exited(3);
     let out = cut.with_extension("recovered.mcap");
     insta::assert_snapshot!("recover_cut", without_bytes(&finished.stdout, &out));
     let info = of("record info --json", &out).succeeded().json();
-    assert!(info["truncated"].is_null() && info["last_s"].as_f64().unwrap() >= 4.0, "{info}");
+    assert!(info["truncated"].is_null() && info["last_s"].as_f64().unwrap() >= 3.0, "{info}");
     // Nothing is ever overwritten: neither what is there, nor the source.
     let again = of("record recover", &cut).exited(2);
     assert!(again.stderr.contains("overwrites nothing"), "{again:?}");
     let itself = Command::new("record recover").with(&cut).and("--out").with(&cut).finish().exited(2);
     assert!(itself.stderr.contains("overwrites nothing"), "{itself:?}");
-    assert_eq!(std::fs::read(&cut).unwrap(), fixture.bytes[..fixture.bytes.len() * 2 / 3]);
+    assert_eq!(std::fs::read(&cut).unwrap(), fixture.bytes[..fixture.bytes.len() / 2]);
     // Nothing of a copy is left that could not be made.
     let nothing = fixture.file("nothing.mcap", &fixture.bytes[..60]);
     let finished = of("record recover", &nothing).exited(1);
@@ -256,14 +262,13 @@ fn cut_and_flipped_files_are_judged_right() {
         assert_eq!(verified.code(), Some(if is_cut { 3 } else { 5 }), "{at}: {verified:?}");
         let out = file.with_extension("good.mcap");
         let recovered = Command::new("record recover --json").with(&file).and("--out").with(&out).finish();
-        if is_cut {
-            recovered.exited(3);
-        } else {
-            assert_eq!(recovered.exited(0).json()["complete"], true);
-            assert!(std::fs::read(&out).unwrap() == fixture.bytes, "{at}");
-        }
+        // One changed bit is put right, and of a file that was cut behind its data only the index is missing.
+        let is_complete = recovered.json()["complete"] == true;
+        assert!(is_complete || is_cut, "{at}: {recovered:?}");
+        assert_eq!(recovered.code(), Some(if is_complete { 0 } else { 3 }), "{at}: {recovered:?}");
+        assert_eq!(std::fs::read(&out).unwrap() == fixture.bytes, is_complete, "{at}");
         let good = of("record verify", &out);
-        assert_eq!(good.code(), Some(if is_cut { 3 } else { 0 }), "{at}: {good:?}");
+        assert_eq!(good.code(), recovered.code(), "{at}: {good:?}");
         assert!(!good.stdout.contains("damaged"), "{good:?}");
     }
 }
@@ -273,7 +278,7 @@ fn cut_and_flipped_files_are_judged_right() {
 fn memory_is_bounded() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("big.mcap");
-    Command::new("run swarm-300 --duration 12 --bus local --record").with(&path).json();
+    Command::new("run swarm-300 --duration 30 --bus local --record").with(&path).json();
     let mut bytes = std::fs::read(&path).unwrap();
     let length = bytes.len();
     assert!(length > 20 << 20, "{length} bytes");
@@ -284,8 +289,8 @@ fn memory_is_bounded() {
     bytes[length / 3] ^= 1;
     std::fs::write(&path, &bytes).unwrap();
     let limited = |arguments: &str| {
-        // Kibibytes of address space; the program itself takes a part of it.
-        let script = format!("ulimit -v 262144; exec \"$0\" record {arguments} \"$1\"");
+        // Kibibytes of address space, less than the file has unpacked; the program itself takes a part of it.
+        let script = format!("ulimit -v 98304; exec \"$0\" record {arguments} \"$1\"");
         let shell = std::process::Command::new("sh").args(["-c", &script]).arg(shoal()).arg(&path).output();
         let Output { status, stdout, stderr } = shell.unwrap();
         let [stdout, stderr] = [stdout, stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
@@ -298,7 +303,6 @@ fn memory_is_bounded() {
     assert_eq!(code, Some(3), "{stdout}{stderr}");
     let (code, _, stderr) = limited("cat --topic flock");
     assert_eq!(code, Some(3), "{stderr}");
-    // What takes more than there is fails there: the limit is felt.
     assert!(std::fs::metadata(&good).unwrap().len() > 20 << 20);
 }
 
@@ -313,16 +317,16 @@ fn diff_names_the_first_event_that_differs() {
 
     let run = |more: &str, name: &str| {
         let path = fixture.folder.path().join(name);
-        Command::new(&format!("run swarm-3 --duration 8 --bus local {more} --record")).with(&path).json();
+        Command::new(&format!("run swarm-3 --bus local {more} --record")).with(&path).json();
         path
     };
-    let seed = run("--seed 2", "seed.mcap");
+    let seed = run("--duration 8 --seed 2", "seed.mcap");
     let text = diff(&seed).exited(1).stdout;
     let text = text.replace(&*fixture.folder.path().to_string_lossy(), "FOLDER");
     insta::assert_snapshot!("diff_seed", text);
 
     // Another speed of sound is told at birth, and seen in a ping before it is felt.
-    let other = run("--set environment.sound_speed_m_s=1499", "sound.mcap");
+    let other = run("--duration 8 --set environment.sound_speed_m_s=1499", "sound.mcap");
     let found = Command::new("record diff --json").with(&record).with(&other).finish().exited(1).json();
     assert_eq!(found["equal"], false);
     assert!(found["runs"][0]["field"].as_str().unwrap().starts_with("scenario.toml line "), "{found}");
@@ -335,5 +339,5 @@ fn diff_names_the_first_event_that_differs() {
 
     let shorter = run("--duration 6", "shorter.mcap");
     let found = Command::new("record diff --json").with(&record).with(&shorter).finish().exited(1).json();
-    assert!(found["first"]["t_s"].as_f64().unwrap() > 6.0 && found["first"]["only_in"] == "a", "{found}");
+    assert!(found["first"]["t_s"].as_f64().unwrap() >= 6.0 && found["first"]["only_in"] == "a", "{found}");
 }

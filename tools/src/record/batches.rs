@@ -65,14 +65,17 @@ impl Told {
     /// What tells it from others: what was told at birth comes first, what is about the swarm as a whole last.
     pub fn key(&self) -> (SimTime, u8, Option<u32>, u8) {
         let (class, rank) = match self.topic {
-            Topic::Auvs | Topic::Born => (0, 0),
+            Topic::Auvs => (0, 0),
+            Topic::Born => (0, 1),
             Topic::Ticks => (1, 0),
             Topic::Sensed => (1, 1),
             Topic::Reports => (1, 2),
             Topic::Pings => (1, 3),
             Topic::Log => (1, 4),
             Topic::Offline => (1, 5),
-            Topic::Flock | Topic::Poses | Topic::Summary => (2, 0),
+            Topic::Flock => (2, 0),
+            Topic::Poses => (2, 1),
+            Topic::Summary => (2, 2),
         };
         (self.at, class, self.auv, rank)
     }

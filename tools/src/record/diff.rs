@@ -146,13 +146,20 @@ fn about_the_runs(a: &Record, b: &Record, outcome: &mut Outcome) {
             || a.scenario.lines().count().min(b.scenario.lines().count()) + 1,
             |(index, _)| index + 1,
         );
-        let text = |of: &str| of.lines().nth(line - 1).unwrap_or_default().trim().to_owned();
+        let whole = |of: &str| of.lines().nth(line - 1).unwrap_or_default().trim().to_owned();
+        let is_in_comment = code(&whole(&a.scenario)) == code(&whole(&b.scenario));
+        let text = |of: &str| if is_in_comment { whole(of) } else { code(&whole(of)).to_owned() };
         outcome.runs.push(FieldOutcome {
             field: format!("scenario.toml line {line}"),
             a: text(&a.scenario).into(),
             b: text(&b.scenario).into(),
         });
     }
+}
+
+/// A line of TOML without its comment.
+fn code(line: &str) -> &str {
+    line.split(" #").next().unwrap_or(line).trim_end()
 }
 
 /// The first event that is not in both.

@@ -145,14 +145,14 @@ fn wrong(path: &Path, error: &dyn std::fmt::Display) -> Failure {
 
 /// One table.
 enum Table {
-    Csv { writer: csv::Writer<Box<dyn Write>>, has_head: bool },
+    Csv { writer: Box<csv::Writer<Box<dyn Write>>>, has_head: bool },
     Jsonl(Box<dyn Write>),
 }
 
 impl Table {
     fn begin(out: Box<dyn Write>, _: Topic, format: Format) -> Self {
         match format {
-            Format::Csv => Self::Csv { writer: csv::Writer::from_writer(out), has_head: false },
+            Format::Csv => Self::Csv { writer: Box::new(csv::Writer::from_writer(out)), has_head: false },
             Format::Jsonl => Self::Jsonl(out),
         }
     }

@@ -21,6 +21,8 @@ pub struct Record {
     /// Names of its AUVs, by index; known once `/auvs` was read.
     pub names: Vec<String>,
     damaged: u64,
+    /// Whether it was read to its end.
+    is_over: bool,
 }
 
 impl Record {
@@ -35,6 +37,7 @@ impl Record {
             scenario: String::new(),
             names: Vec::new(),
             damaged: 0,
+            is_over: false,
         })
     }
 
@@ -78,6 +81,7 @@ impl Record {
                 Found::Metadata { .. } | Found::Attachment { .. } => {}
             }
         }
+        self.is_over = true;
         if self.run.is_empty() && self.damaged == 0 {
             let cause = match self.reader.ending() {
                 Ending::Truncated { .. } => "it ends before it says of which run it is",
@@ -88,20 +92,19 @@ impl Record {
         Ok(None)
     }
 
-    /// How its reading ended, for the exit code: said on stderr when something is missing.
+    /// How its reading ended, for the exit code: said on stderr when something is missing. What was not read is not missed.
     pub fn end(&self) -> Exit {
-        if let Ending::Truncated { readable_bytes } = self.reader.ending() {
-            eprintln!(
-                "warning: {}: it was cut behind byte {readable_bytes}: `shoal record recover` makes a good record of the rest",
-                self.path.display()
-            );
+        match self.reader.ending() {
+            Ending::Truncated { readable_bytes } if self.is_over => {
+                eprintln!(
+                    "warning: {}: it was cut behind byte {readable_bytes}: `shoal record recover` makes a good record of the rest",
+                    self.path.display()
+                );
+                Exit::Loss
+            }
+            _ if self.damaged > 0 => Exit::Loss,
+            _ => Exit::Good,
         }
-        if self.is_whole() { Exit::Good } else { Exit::Loss }
-    }
-
-    /// Whether all of it could be read.
-    pub fn is_whole(&self) -> bool {
-        self.damaged == 0 && self.reader.ending() == Ending::Complete
     }
 
     /// An error about this record.

@@ -287,7 +287,9 @@ mod tests {
 
     fn batch(reports: Vec<ReportRow>) -> Telling {
         let truth = reports.iter().map(|row| truth(row.tick)).collect();
-        Telling { reports, truth, ..Telling::default() }
+        let mut telling = Telling::default();
+        (telling.reports, telling.truth) = (reports, truth);
+        telling
     }
 
     #[test]
