@@ -11,7 +11,6 @@ trap 'rm -rf "$scratch"' EXIT
 
 $shoal run swarm-300 --duration 6 --bus local --quiet --record "$scratch/flock.mcap" >/dev/null
 $shoal plot "$scratch/flock.mcap" map --at-s 5.05 -o "$out/map.svg"
-$shoal plot "$scratch/flock.mcap" tubes --auv 7 -o "$out/tubes.svg"
 $shoal plot "$scratch/flock.mcap" paving --auv 7 --at-s 2 -o "$out/paving.svg"
 $shoal report "$scratch/flock.mcap" -o "$scratch/flock.html"
 
