@@ -78,7 +78,7 @@ fn the_truth_is_in_the_sub_paving_of_the_last_pings() {
     let folder = tempfile::tempdir().unwrap();
     let record = folder.path().join("run.mcap");
     Command::new("run swarm-300 --auvs 40 --duration 6 --bus local --record").with(&record).json();
-    for (auv, at_s) in [(0, 3), (7, 2), (20, 6), (39, 4)] {
+    for (auv, at_s) in [(0, 3), (12, 4), (20, 6), (39, 4)] {
         let arguments = format!("paving --auv {auv} --at-s {at_s}");
         let svg = Command::new("plot").with(&record).and(&arguments).finish().succeeded().stdout;
         let panel = svg.split("clip-path=").nth(1).unwrap();
