@@ -65,6 +65,39 @@ fn a_figure_becomes_a_picture_as_the_help_says() {
     assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.len() > 10_000, "{}", bytes.len());
 }
 
+/// The numbers of these attributes of an element.
+fn numbers<const N: usize>(element: &str, attributes: [&str; N]) -> [f64; N] {
+    attributes.map(|name| {
+        let value = element.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap();
+        value.parse().unwrap()
+    })
+}
+
+#[test]
+fn the_truth_is_in_the_sub_paving_of_the_last_pings() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = folder.path().join("run.mcap");
+    Command::new("run swarm-300 --auvs 40 --duration 6 --bus local --record").with(&record).json();
+    for (auv, at_s) in [(0, 3), (7, 2), (20, 6), (39, 4)] {
+        let arguments = format!("paving --auv {auv} --at-s {at_s}");
+        let svg = Command::new("plot").with(&record).and(&arguments).finish().succeeded().stdout;
+        let panel = svg.split("clip-path=").nth(1).unwrap();
+        let cross = panel.lines().find(|line| line.contains("href=\"#cross\"")).unwrap();
+        let [x, y] = numbers(cross, ["x", "y"]);
+        let is_inside = |line: &str| {
+            let [left, top, width, height] = numbers(line, ["x", "y", "width", "height"]);
+            (left - 0.01..=left + width + 0.01).contains(&x)
+                && (top - 0.01..=top + height + 0.01).contains(&y)
+        };
+        // The first rectangles are those of the paving; the last one is the frame.
+        let boxes = panel.split("<path").next().unwrap().lines().filter(|line| line.starts_with("<rect"));
+        assert!(boxes.clone().any(is_inside), "AUV {auv} at {at_s} s: {} boxes", boxes.count());
+        assert!(!svg.contains("in all rings but"), "AUV {auv} at {at_s} s");
+    }
+    let refused = Command::new("plot").with(&record).and("paving --auv 3 --at-s 0").finish();
+    assert!(refused.status.code() == Some(1) && refused.stderr.contains("nothing to show"), "{refused:?}");
+}
+
 #[test]
 fn estimators_are_drawn_beside_each_other_with_the_numbers_of_the_summary() {
     let folder = tempfile::tempdir().unwrap();

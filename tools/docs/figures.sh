@@ -9,8 +9,6 @@ mkdir -p "$out"
 scratch="$(mktemp -d)"
 trap 'rm -rf "$scratch"' EXIT
 
-$shoal run two-circles --bus local --quiet --record "$scratch/circles.mcap" >/dev/null
-$shoal plot "$scratch/circles.mcap" tubes --auv 1 -o "$out/tubes.svg"
 $shoal run swarm-300 --duration 6 --bus local --quiet --record "$scratch/flock.mcap" >/dev/null
 $shoal plot "$scratch/flock.mcap" map --at-s 5.05 -o "$out/map.svg"
 $shoal plot "$scratch/flock.mcap" paving --auv 7 --at-s 2 -o "$out/paving.svg"
@@ -19,7 +17,7 @@ $shoal report "$scratch/flock.mcap" -o "$scratch/flock.html"
 chromium="$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)"
 if [ -n "$chromium" ]; then
     "$chromium" --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$scratch/browser" \
-        --window-size=1100,1500 --screenshot="$scratch/report.png" "file://$scratch/flock.html" >/dev/null 2>&1
+        --window-size=900,1100 --screenshot="$scratch/report.png" "file://$scratch/flock.html" >/dev/null 2>&1
     mv "$scratch/report.png" "$out/report.png"
 else
     echo "skipped: no Chromium, so no picture of the report"

@@ -6,7 +6,7 @@ mod choice;
 mod file;
 mod info;
 mod list;
-mod live;
+pub mod live;
 mod measure;
 mod print;
 mod source;

@@ -55,8 +55,8 @@ pub struct ViewArgs {
     /// Instead of a record: a run in progress on this host, of which the last minutes are kept
     #[arg(long, conflicts_with = "record")]
     pub live: bool,
-    /// For `--live`: id of the run, when there are several
-    #[arg(long, value_name = "ID", requires = "live")]
+    /// For `--live`: id or scenario of the run, when there are several
+    #[arg(long, value_name = "RUN", requires = "live")]
     pub run: Option<String>,
     /// For `--live`: wait so many seconds for a run to begin
     #[arg(long, value_name = "SECONDS", default_value = "0", requires = "live", value_parser = patience)]

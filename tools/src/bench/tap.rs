@@ -134,11 +134,8 @@ fn one(args: &TapBenchArgs, tapped: bool) -> Result<(Summary, Option<TapEnd>), F
         .while_doing("start a run")?;
     let tap = if tapped { Some(attach(&exe, args, run.id())) } else { None }.transpose();
     let output = run.wait_with_output().while_doing("wait for a run")?;
-    let end = match tap? {
-        // A thread that reads does not panic.
-        Some(reader) => Some(reader.join().unwrap_or_else(|_| Err(std::io::ErrorKind::Other.into()))),
-        None => None,
-    };
+    // A thread that reads does not panic.
+    let end = tap?.map(|reader| reader.join().unwrap_or_else(|_| Err(std::io::ErrorKind::Other.into())));
     let end = end.transpose().while_doing("wait for a tap")?;
     if !output.status.success() {
         return Err(Failure::failed(format!("the run did not end well: {}", output.status)));

@@ -32,6 +32,21 @@ fn the_help_of_every_verb_has_an_example_of_it() {
     }
 }
 
+/// The words of a line as a shell splits it: what is in quotes is one.
+fn words(line: &str) -> Vec<String> {
+    let (mut words, mut quote) = (vec![String::new()], None);
+    for letter in line.chars() {
+        match letter {
+            '"' | '\'' if quote.is_none() => quote = Some(letter),
+            _ if quote == Some(letter) => quote = None,
+            ' ' if quote.is_none() => words.push(String::new()),
+            _ => words.last_mut().unwrap().push(letter),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
 #[test]
 fn the_examples_of_every_verb_are_understood() {
     use clap::Parser;
@@ -39,13 +54,10 @@ fn the_examples_of_every_verb_are_understood() {
         let examples = verb.get_after_help().map(ToString::to_string).unwrap_or_default();
         let lines = examples.lines().map(str::trim).filter(|line| line.starts_with("shoal "));
         for line in lines {
-            // What a shell makes of the line is not ours: up to a pipe or a file, without quotes.
-            let line = line
-                .split([' ', '\t'])
-                .take_while(|word| !["|", ">", "#"].contains(word) && !word.starts_with('('));
-            let words: Vec<String> = line
-                .map(|word| word.trim_matches(['"', '\'']).to_owned())
-                .filter(|word| !word.is_empty())
+            // What a shell does with the output is not ours.
+            let words: Vec<String> = words(line)
+                .into_iter()
+                .take_while(|word| !["|", ">", "#"].contains(&word.as_str()) && !word.starts_with('('))
                 .collect();
             if let Err(error) = Cli::try_parse_from(&words) {
                 assert!(!error.use_stderr(), "`{name}`: {}: {error}", words.join(" "));

@@ -20,18 +20,25 @@ pub struct TapArgs {
 #[derive(Clone, Debug, Subcommand)]
 pub enum Verb {
     /// The topics, with how many messages they had and have a second
+    #[command(after_help = "Example:\n  shoal tap list")]
     List,
     /// What the messages of a topic hold, field by field, and how many there were
+    #[command(after_help = "Example:\n  shoal tap info /pings")]
     Info(TopicArg),
     /// Print the messages of a topic
+    #[command(after_help = "Example:\n  shoal tap echo /pings --count 10")]
     Echo(TopicArg),
     /// How often messages of a topic come
+    #[command(after_help = "Example:\n  shoal tap hz /pings")]
     Hz(TopicArg),
     /// How many bytes a second the messages of a topic are, as the JSON of a record
+    #[command(after_help = "Example:\n  shoal tap bw /reports")]
     Bw(TopicArg),
     /// How long messages of a topic take from the water to this tap, and how long after they happened they are told
+    #[command(after_help = "Example:\n  shoal tap delay /pings")]
     Delay(TopicArg),
     /// A table of the AUVs that keeps itself up to date: what they know of themselves, and what they hear
+    #[command(after_help = "Example:\n  shoal tap top --sort box")]
     Top(TopArgs),
 }
 

@@ -36,7 +36,7 @@ pub fn attach(args: &OriginArgs, topics: &[Topic]) -> Result<TapSubscriber, Fail
 }
 
 /// The run that `--run` names, or the only one.
-fn chosen(wanted: Option<&str>) -> Result<RunDir, Failure> {
+pub fn chosen(wanted: Option<&str>) -> Result<RunDir, Failure> {
     let mut live: Vec<RunDir> = RunDir::list();
     let listed = list(&live);
     if let Some(wanted) = wanted {
@@ -64,7 +64,7 @@ fn chosen(wanted: Option<&str>) -> Result<RunDir, Failure> {
     }
     match live.len() {
         0 => Err(Failure::failed(
-            "no run is live on this host; start one with `shoal run`, give --wait SECONDS, or read a record with -r FILE",
+            "no run is live on this host; start one with `shoal run`, give --wait SECONDS, or a record",
         )),
         1 => Ok(live.swap_remove(0)),
         _ => Err(Failure::usage(format!("several runs are live, choose one with --run RUN: {listed}"))),

@@ -7,7 +7,6 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use shoal_bus::record::Topic;
-use shoal_bus::run_dir::RunDir;
 use shoal_bus::tap::{TapError, TapItem, TapSubscriber};
 
 use super::cast::Cast;
@@ -15,6 +14,7 @@ use super::chunk::Gatherer;
 use super::store::Store;
 use crate::exit::Exit;
 use crate::failure::{Failure, While};
+use crate::tap::live::chosen;
 
 const TOPICS: [Topic; 4] = [Topic::Ticks, Topic::Reports, Topic::Pings, Topic::Flock];
 
@@ -125,33 +125,6 @@ fn gather(
         }
         if stop.load(Ordering::Relaxed) {
             return Ok(String::new());
-        }
-    }
-}
-
-/// The run with this id, or the only one.
-fn chosen(wanted: Option<&str>) -> Result<RunDir, Failure> {
-    let mut live = RunDir::list();
-    let listed = || {
-        let names: Vec<String> = live
-            .iter()
-            .map(|run| {
-                let description = run.description().unwrap_or_default();
-                format!("{} ({})", run.id(), description["scenario"].as_str().unwrap_or("?"))
-            })
-            .collect();
-        if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-    };
-    match (wanted, live.len()) {
-        (Some(id), _) => live.iter().find(|run| run.id() == id).cloned().ok_or_else(|| {
-            Failure::failed(format!("no live run has the id `{id}`; live on this host: {}", listed()))
-        }),
-        (None, 0) => Err(Failure::failed(
-            "no run is live on this host; start one with `shoal run`, or give --wait SECONDS",
-        )),
-        (None, 1) => Ok(live.swap_remove(0)),
-        (None, _) => {
-            Err(Failure::usage(format!("several runs are live, choose one with --run ID: {}", listed())))
         }
     }
 }

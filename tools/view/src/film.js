@@ -16,6 +16,8 @@ export class Film {
     this.end = 0;
     this.done = false;
     this.figures = [];
+    /** Seconds before the moment that are needed, too. */
+    this.behind = AHEAD / 2;
   }
 
   /** How far the server has come. */
@@ -40,7 +42,7 @@ export class Film {
     const here = Math.floor(t);
     const wanted = [here, here + 1, here - 1];
     for (let step = 2; step <= AHEAD; step++) wanted.push(here + step);
-    for (let step = 2; step <= AHEAD / 2; step++) wanted.push(here - step);
+    for (let step = 2; step <= this.behind; step++) wanted.push(here - step);
     for (const second of wanted) {
       if (this.asked.size >= UNDER_WAY_MAX) break;
       if (second < this.first || second >= this.end || this.seconds.has(second) || this.asked.has(second)) continue;

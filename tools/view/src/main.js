@@ -1,7 +1,7 @@
 // The page of `shoal view`: a run at one moment, and everything that leads from one moment to another.
 
 import { Film } from './film.js';
-import { Moment } from './moment.js';
+import { Moment, memoryOf } from './moment.js';
 import { groupColours } from './palette.js';
 import { Charts, List, find, make } from './panel.js';
 import { Track, open } from './source.js';
@@ -26,6 +26,8 @@ function hear(message) {
   else if (message.reached) reach(message.reached);
   else if (message.second !== undefined) {
     film.take(message.second, message.buffer, message.offset);
+    // Who heard whom lately may be in it.
+    if (!cast.ideal) version++;
     dirty = true;
   } else if (message.track !== undefined && track?.auv === message.track) {
     if (message.buffer) track.take(message.buffer);
@@ -46,6 +48,7 @@ function begin(told) {
     ...told, groupOf, length: bodies, reach, reachMax: reach.reduce((one, other) => Math.max(one, other), 1), soundSpeed: told.sound_speed_m_s,
   };
   film = new Film(source);
+  if (!cast.ideal) film.behind = Math.max(film.behind, Math.ceil(memoryOf(cast)));
   moment = new Moment(names.length);
   visible = new Uint8Array(names.length).fill(1);
   stage = new Stage(find('water'), cast);

@@ -120,10 +120,15 @@ function inRange({ auvs, position, shown }, { reach }, visible, pairs) {
   return found;
 }
 
+/** Seconds for which a ping that was heard is a link, where ranges are not sharp: until the next one is due. */
+export function memoryOf({ groups }) {
+  return Math.min(60, 1.2 * Math.max(1, ...groups.map(({ ping_period_s }) => ping_period_s ?? 0)));
+}
+
 function lately({ t, shown }, { groupOf, groups }, film, visible, pairs) {
   let found = 0;
   const taken = new Set();
-  const longest = Math.min(60, 1.2 * Math.max(1, ...groups.map(({ ping_period_s }) => ping_period_s ?? 0)));
+  const longest = memoryOf({ groups });
   for (let second = Math.floor(t); second >= Math.floor(t - longest); second--) {
     const { heard } = film.get(second) ?? {};
     for (let index = 0; heard && index < heard.count; index++) {

@@ -196,7 +196,7 @@ mod tests {
             terminal.draw(|frame| view.draw(frame, "a title", &roster)).unwrap();
             (terminal.backend().to_string(), view.scrolled)
         };
-        let (wide, scrolled) = shown(110);
+        let (wide, scrolled) = shown(130);
         assert_eq!(scrolled, 6, "{wide}");
         assert!(wide.contains("a title") && wide.contains("emitted") && wide.contains("state"), "{wide}");
         assert!(wide.contains("\n\"  8 ") && !wide.contains("\n\"  5 "), "{wide}");
