@@ -122,7 +122,7 @@ pub enum Command {
         it was told then, so what is compared is what its mind makes of the same measurements, not where another course would have led.\n\n\
         Exits with 0 when all answers are the same, with 1 when some differ, with 4 when an enclosure that promises to hold the truth \
         lost it where the recorded one held it.\n\nExamples:\n  shoal replay flock.mcap\n  shoal replay flock.mcap --estimator ekf\n  \
-        shoal replay flock.mcap --estimator '{ name = \"tube\", rings = 0 }' --json\n  shoal replay flock.mcap --from 10 --step 0.5"
+        shoal replay flock.mcap --estimator '{name=\"tube\",rings=0}' --json\n  shoal replay flock.mcap --from 10 --step 0.5"
     )]
     Replay(ReplayArgs),
     /// Measure this machine

@@ -49,7 +49,7 @@ pub enum RecordCommand {
     #[command(
         after_help = "A line is an event as the topic's schema describes it, behind the name of its topic.\n\nExamples:\n  \
         shoal record cat flock.mcap --topic /pings --auv 7 --from-s 10 --to-s 20\n  \
-        shoal record cat flock.mcap --filter \"reason == collision and range_m < 200\"\n  \
+        shoal record cat flock.mcap --topic /pings --filter 'range_m>400'\n  \
         shoal record cat flock.mcap --topic /reports --count 1 | jq .position_m"
     )]
     Cat(cat::CatArgs),
