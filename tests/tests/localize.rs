@@ -31,7 +31,6 @@ fn a_record_becomes_trajectories_and_a_figure() {
         assert!(finished.code() == Some(code) && finished.stderr.contains(words), "{finished:?}");
     };
     refused(of_auv("6"), 1, "there is no AUV 6");
-    refused(Command::new("plot").with(&record).and("tubes").finish(), 1, "shoal localize RECORD --offline");
     refused(Command::new("plot").with(&record).and("losses --auv 1").finish(), 2, "--auv is for `tubes`");
     refused(Command::new("localize").with(&record).finish(), 2, "--offline");
     let itself = Command::new("localize --offline").with(&record).and("--out").with(&record).finish();

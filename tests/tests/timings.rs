@@ -61,9 +61,9 @@ fn scale_is_measured_beside_a_hundred() {
     assert!(lines[0]["beside"].is_null());
     assert_eq!(lines[1]["beside"]["ratio"], 1.0);
     assert!(lines[2]["beside"]["ratio"].as_f64().unwrap() > 0.0);
-    let line = "bench tap --scenario six-circles --duration-s 5 --pairs 2 --json";
+    let line = "bench tap --scenario swarm-300 --duration-s 3 --pairs 1 --json";
     let figures = Command::new(line).finish().succeeded().json();
-    assert_eq!((&figures["format"], &figures["name"]), (&"shoal.bench/1".into(), &"tap/six-circles".into()));
+    assert_eq!((&figures["format"], &figures["name"]), (&"shoal.bench/1".into(), &"tap/swarm-300".into()));
     assert!(
         figures["beside"]["ratio"].as_f64().unwrap() > 0.0 && figures["lines"].as_u64().unwrap() > 0,
         "{figures}"

@@ -141,6 +141,13 @@ fn one(args: &TapBenchArgs, tapped: bool) -> Result<(Summary, Option<TapEnd>), F
         return Err(Failure::failed(format!("the run did not end well: {}", output.status)));
     }
     let summary = serde_json::from_slice(&output.stdout).while_doing("understand the summary of a run")?;
+    if let Some(tap) = end.as_ref().filter(|tap| tap.status.code() == Some(Exit::Failed as i32)) {
+        let words = String::from_utf8_lossy(&tap.stderr);
+        return Err(Failure::failed(format!(
+            "the tap failed, perhaps because the run was over before it came; give a longer --duration-s: {}",
+            words.trim()
+        )));
+    }
     let end = end.map(|output| TapEnd {
         lines: output.stdout.iter().filter(|byte| **byte == b'\n').count() as u64,
         words: String::from_utf8_lossy(&output.stderr).into_owned(),
@@ -168,7 +175,8 @@ fn attach(
     let tap = Command::new(exe)
         .arg("tap")
         .args(args.tap.split_whitespace())
-        .args(["--run", run.id(), "--wait", "60"])
+        // Long enough for the run to be ready, short when it is over already.
+        .args(["--run", run.id(), "--wait", "10"])
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
