@@ -77,14 +77,11 @@ impl TapPublisher {
             self.tell_cast()?;
             self.mark()?;
         }
-        for feed in &mut self.feeds {
-            let before = self.counts.of(feed.topic);
-            let rows = if feed.service.listeners() > 0 {
-                feed.publish(before, entries)?
-            } else {
-                entries.iter().filter(|entry| LiveTopic::of(&entry.what) == feed.topic).count() as u64
-            };
-            self.counts.add(feed.topic, rows);
+        for feed in self.feeds.iter_mut().filter(|feed| feed.service.listeners() > 0) {
+            feed.publish(self.counts.of(feed.topic), entries)?;
+        }
+        for entry in entries {
+            self.counts.add(LiveTopic::of(&entry.what), 1);
         }
         self.to = to;
         if is_tapped {
@@ -136,8 +133,8 @@ impl TapPublisher {
 }
 
 impl Feed {
-    /// Publishes its rows among `entries`, the first being the one at index `next` of the run, and counts them.
-    fn publish(&mut self, next: u64, entries: &[Entry]) -> Result<u64, TapError> {
+    /// Publishes its rows among `entries`, the first being the one at index `next` of the run.
+    fn publish(&mut self, next: u64, entries: &[Entry]) -> Result<(), TapError> {
         let mut rows = 0;
         for entry in entries {
             if LiveTopic::of(&entry.what) == self.topic {
@@ -153,8 +150,7 @@ impl Feed {
                 *latest = Some((truth.tick, truth.local));
             }
         }
-        self.flush()?;
-        Ok(rows)
+        self.flush()
     }
 
     /// What the clock read at the tick that an answer is about.
