@@ -1,6 +1,6 @@
 // Makes dist/ from src/: the same bytes every time, for `cargo build` to embed. `npm ci && npm run build`
 import { build } from 'esbuild';
-import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
 
 await mkdir('dist', { recursive: true });
 await build({
@@ -13,8 +13,6 @@ await build({
   charset: 'ascii',
   legalComments: 'inline',
 });
-await copyFile('src/index.html', 'dist/index.html');
-await copyFile('src/view.css', 'dist/view.css');
 const licence = await readFile('node_modules/three/LICENSE', 'utf8');
 const { version } = JSON.parse(await readFile('node_modules/three/package.json', 'utf8'));
 await writeFile('dist/LICENSES.txt', `This page contains three.js ${version} (https://threejs.org):\n\n${licence.replaceAll('\r\n', '\n').trim()}\n`);

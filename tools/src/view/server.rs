@@ -17,12 +17,12 @@ use super::request::{Refused, Wanted, token, wanted};
 use super::session;
 use super::store::Store;
 
-/// The page, its program and its looks, as `npm run build` in `tools/view` leaves them.
-pub const PAGE: &str = include_str!("../../view/dist/index.html");
-/// Its program.
+/// The page.
+pub const PAGE: &str = include_str!("../../view/src/index.html");
+/// Its program, as `npm run build` in `tools/view` leaves it.
 pub const SCRIPT: &str = include_str!("../../view/dist/view.js");
 /// Its looks.
-pub const STYLE: &str = include_str!("../../view/dist/view.css");
+pub const STYLE: &str = include_str!("../../view/src/view.css");
 /// The licences of what is built into it.
 pub const LICENCES: &str = include_str!("../../view/dist/LICENSES.txt");
 
