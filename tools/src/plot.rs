@@ -254,6 +254,4 @@ fn write(out: &Path, svg: &str) -> Result<(), Failure> {
 }
 
 #[cfg(test)]
-mod moments;
-#[cfg(test)]
 mod tests;

@@ -1,5 +1,7 @@
 //! Tests of the figures of records.
 
+mod moments;
+
 use std::io::Cursor;
 
 use clap::Parser;

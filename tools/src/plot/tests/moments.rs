@@ -5,8 +5,8 @@ use shoal_bus::record::rows::{PingRow, Real, ReportRow, TruthRow};
 use shoal_bus::record::{RecordHeader, RecordedAuv, Row};
 use shoal_bus::time::{LocalTime, NS_PER_S, SimTime};
 
-use super::{Kind, Of, plot_of};
 use crate::figure::{Figure, Layer};
+use crate::plot::{Kind, Of, plot_of};
 
 const LIBRARY: &str = "swarm-3";
 
